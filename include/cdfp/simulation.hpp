@@ -1,0 +1,71 @@
+/// A simulation built from a model: advance it, look at its state.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "cdfp/model.hpp"
+#include "cdfp/results.hpp"
+
+namespace cdfp {
+
+class Topology;
+
+/// Not thread-safe by itself; different simulations may be used from different threads at once.
+class Simulation {
+ public:
+  /// Resolves and checks the model, builds what the scene needs and nothing else.
+  /// Throws `Error` naming the entry that is wrong and the cure.
+  explicit Simulation(Model model);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  /// One step of central differences. Throws `Error(diverged)` naming element and time if the state is lost;
+  /// the state stays readable.
+  void step();
+  /// As many steps as are left, at most `steps`; returns how many were done.
+  std::int64_t advance(std::int64_t steps);
+
+  bool finished() const;
+  double time() const;
+  double step_size() const;
+  double stable_step() const;         ///< s, at the last estimate
+  Index controlling_element() const;  ///< of the last estimate
+  std::int64_t step_count() const;
+
+  // Views (n, 3) or (n): valid until the next step (an insertion grows them).
+  std::span<const double> positions() const;
+  std::span<const double> velocities() const;  ///< at the half step behind
+  std::span<const double> forces() const;      ///< N, all nodal forces of the last step
+  std::span<const double> masses() const;
+  Index node_count() const;
+
+  const Model& model() const;  ///< its mesh as it was at the start
+  const Topology& topology() const;
+
+  struct BodyState {
+    std::array<double, 3> position{};
+    std::array<double, 3> velocity{};
+    std::array<double, 3> angular_velocity{};
+    std::array<double, 3> contact_force{};  ///< N, on what is modelled
+  };
+  Index body_count() const;
+  BodyState body(Index rigid_body) const;
+
+  Index cohesive_count() const;
+  Index broken_count() const;
+
+  Energies energies() const;
+  const History& history() const;
+  Frame frame() const;
+  Summary summary() const;
+
+ private:
+  struct Stages;
+  std::unique_ptr<Stages> stages_;
+};
+
+}  // namespace cdfp

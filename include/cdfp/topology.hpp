@@ -1,0 +1,101 @@
+/// TopS: a compact adjacency-based mesh structure (Celes, Paulino, Espinha 2005; Paulino et al. 2008).
+///
+/// Elements and nodes are stored; facets, edges and vertices are implicit and named by oriented uses of an
+/// element through its template. Bulk elements come first and keep their numbers; each cohesive insertion
+/// appends one cohesive element. Every query costs time proportional to its answer.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cdfp/mesh.hpp"
+#include "cdfp/types.hpp"
+
+namespace cdfp {
+
+struct EdgeUse {
+  Index element = kNone;
+  Index edge = kNone;
+  friend bool operator==(const EdgeUse&, const EdgeUse&) = default;
+};
+
+struct VertexUse {
+  Index element = kNone;
+  Index corner = kNone;
+  friend bool operator==(const VertexUse&, const VertexUse&) = default;
+};
+
+/// The corners of a facet, in outward order for the element that uses it.
+struct FacetNodes {
+  std::array<Index, 4> nodes{kNone, kNone, kNone, kNone};
+  Index count = 0;
+  std::span<const Index> view() const { return {nodes.data(), static_cast<std::size_t>(count)}; }
+};
+
+/// What one cohesive insertion changed; a driver updates its own arrays from it.
+struct Insertion {
+  struct NewNode {
+    Index node;
+    Index mother;  ///< the node that it was copied from
+  };
+  struct Renumbered {
+    Index element;  ///< bulk or cohesive
+    Index corner;
+    Index old_node;
+    Index new_node;
+  };
+  Index cohesive_element = kNone;
+  FacetUse lower;  ///< facet of the bulk element with the smaller number; the cohesive normal leaves it
+  FacetUse upper;
+  std::vector<NewNode> new_nodes;      ///< in the order of their numbers
+  std::vector<Renumbered> renumbered;  ///< corners that now name a new node
+};
+
+class Topology {
+ public:
+  /// `connectivity` holds the corners of all elements, one after the other, as in `Mesh`.
+  /// Throws `Error(bad_mesh)` for node numbers out of range and facets shared by more than two elements.
+  Topology(Index node_count, std::span<const ElementType> types, std::span<const Index> connectivity);
+  ~Topology();
+  Topology(Topology&&) noexcept;
+  Topology& operator=(Topology&&) noexcept;
+
+  Index node_count() const;
+  Index element_count() const;  ///< bulk and cohesive
+  Index bulk_count() const;
+
+  ElementType type(Index element) const;
+  std::span<const Index> nodes(Index element) const;
+
+  /// The facet on the other side (`f[E]`): of a cohesive element if one stands between, `{kNone, kNone}` at
+  /// the boundary. A cohesive element's facet 0 is its upper face, facet 1 its lower face.
+  FacetUse mate(FacetUse use) const;
+  FacetNodes facet_nodes(FacetUse use) const;
+  Index facet_count(Index element) const;
+
+  /// Elements around an edge in cyclic order (`e[E]`), starting with the given use; an open cycle starts at
+  /// one of its ends. Cohesive elements are part of the cycle.
+  void elements_around(EdgeUse use, std::vector<EdgeUse>& out) const;
+  /// Elements around a node (`N{E}`), in ascending order of element numbers.
+  void elements_around_node(Index node, std::vector<VertexUse>& out) const;
+
+  /// Inserts a cohesive element at an inner facet between two bulk elements. `report` is overwritten (its
+  /// storage is reused). Throws `Error(bad_argument)` at a boundary facet, a facet that is cohesive already
+  /// and numbers out of range; nothing is changed then.
+  void insert_cohesive(FacetUse use, Insertion& report);
+
+  /// The first relation that does not hold, or an empty string.
+  std::string check() const;
+
+  /// Bytes held by the structure.
+  std::size_t memory() const;
+
+ private:
+  struct Store;
+  std::unique_ptr<Store> store_;
+};
+
+}  // namespace cdfp

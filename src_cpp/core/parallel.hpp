@@ -1,0 +1,41 @@
+/// Loops over threads whose results do not depend on how many there are: each index is worked on once and
+/// writes only what is its own; sums are taken afterwards in index order.
+#pragma once
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <exception>
+
+namespace cdfp {
+
+/// The threads that a simulation may use. 0 asks for as many as the machine has.
+class Threads {
+ public:
+  explicit Threads(int count = 1) : count_(count > 0 ? count : omp_get_num_procs()) {}
+  int count() const { return count_; }
+
+  /// `body(i)` for every i in [0, n), in contiguous shares. The body must not throw.
+  template <class Body>
+  void for_each(std::int64_t n, Body&& body) const {
+    if (count_ == 1 || n < 2) {
+      for (std::int64_t i = 0; i < n; ++i) body(i);
+      return;
+    }
+#pragma omp parallel for schedule(static) num_threads(count_)
+    for (std::int64_t i = 0; i < n; ++i) body(i);
+  }
+
+  /// `body(begin, end)` over pieces of `grain` indices: the pieces are the same for any number of threads.
+  template <class Body>
+  void for_ranges(std::int64_t n, std::int64_t grain, Body&& body) const {
+    const std::int64_t pieces = (n + grain - 1) / grain;
+    for_each(pieces, [&](std::int64_t p) { body(p * grain, std::min(n, (p + 1) * grain)); });
+  }
+
+ private:
+  int count_;
+};
+
+}  // namespace cdfp

@@ -1,0 +1,70 @@
+/// Internal forces, mass, stress and stable step of all bulk elements of a model.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cdfp/model.hpp"
+#include "core/parallel.hpp"
+#include "core/vec3.hpp"
+
+namespace cdfp {
+
+struct PartEnergy {
+  double strain = 0;      ///< J, without hourglass
+  double hourglass = 0;   ///< J
+  double dissipated = 0;  ///< J, by the material
+};
+
+struct StepBound {
+  double step = 0;  ///< s
+  Index element = kNone;
+};
+
+class ElementForce {
+ public:
+  /// Elements of rigid parts are left out. Copies what it needs; the model may go.
+  explicit ElementForce(const Model& model);
+  ~ElementForce();
+
+  /// Adds each deformable element's lumped mass to its nodes.
+  void add_mass(std::span<double> mass) const;
+  /// kg: what one element gives to each of its corners; 0 for rigid elements.
+  double corner_mass(Index element) const;
+
+  /// Adds minus the internal force to `force` and advances the material state by `step`.
+  /// The same bits for any number of threads.
+  void add_force(std::span<const double> position, std::span<double> force, double step,
+                 const Threads& threads);
+
+  /// Ascending numbers of the cracking elements whose stress, at the last `add_force`, could reach the
+  /// strength on some plane (Frobenius norm of the stress against strength * min(1, shear ratio)). A facet
+  /// whose traction is the mean of two elements' can only open if one of them is listed.
+  std::span<const Index> critical_elements() const;
+
+  /// Mean Cauchy stress of an element at `position`, Pa, with the material state as it is.
+  Mat3 stress(Index element, std::span<const double> position) const;
+
+  /// An element's corner now names `node` (a copy of the old one at the same place).
+  void replace_node(Index element, Index corner, Index node);
+
+  /// A step below which every element, alone or in any assembly, is stable (2 / omega of the free element, as
+  /// deformed now).
+  StepBound stable_step(std::span<const double> position, const Threads& threads) const;
+
+  /// One entry a part of the model.
+  std::vector<PartEnergy> energies(std::span<const double> position, const Threads& threads) const;
+
+  /// First element with a non-finite or non-positive volume at `position`, or kNone.
+  Index first_inverted(std::span<const double> position) const;
+
+  /// Bytes held an element, constants and state.
+  std::size_t memory() const;
+
+ private:
+  struct Blocks;
+  std::unique_ptr<Blocks> blocks_;
+};
+
+}  // namespace cdfp

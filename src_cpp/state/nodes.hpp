@@ -1,0 +1,49 @@
+/// The nodal state: the one owner of positions, velocities, forces and masses. It grows when nodes are split.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cdfp/types.hpp"
+#include "core/vec3.hpp"
+
+namespace cdfp {
+
+struct Nodes {
+  std::vector<double> reference;    ///< (n, 3) undeformed position, m
+  std::vector<double> position;     ///< (n, 3) at the end of the step, m
+  std::vector<double> velocity;     ///< (n, 3) at the half step, m/s
+  std::vector<double> force;        ///< (n, 3) sum over all stages of the step, N
+  std::vector<double> mass;         ///< (n) lumped, kg
+  std::vector<std::uint8_t> fixed;  ///< (n) bit d: direction d follows a constraint, not its force
+  std::vector<Index> body;          ///< (n) rigid body that carries the node, or kNone
+
+  explicit Nodes(std::span<const double> coordinates)
+      : reference(coordinates.begin(), coordinates.end()),
+        position(reference),
+        velocity(reference.size(), 0.0),
+        force(reference.size(), 0.0),
+        mass(reference.size() / 3, 0.0),
+        fixed(mass.size(), 0),
+        body(mass.size(), kNone) {}
+
+  Index count() const { return static_cast<Index>(mass.size()); }
+  Vec3 x(Index n) const { return Vec3::load(&position[3 * static_cast<std::size_t>(n)]); }
+  Vec3 v(Index n) const { return Vec3::load(&velocity[3 * static_cast<std::size_t>(n)]); }
+  Vec3 f(Index n) const { return Vec3::load(&force[3 * static_cast<std::size_t>(n)]); }
+  Vec3 x0(Index n) const { return Vec3::load(&reference[3 * static_cast<std::size_t>(n)]); }
+
+  /// Appends a copy of `mother` (all but its mass, which the caller divides) and returns its number.
+  Index clone(Index mother) {
+    for (std::vector<double>* field : {&reference, &position, &velocity, &force}) {
+      for (int d = 0; d < 3; ++d) field->push_back((*field)[3 * static_cast<std::size_t>(mother) + d]);
+    }
+    mass.push_back(mass[mother]);
+    fixed.push_back(fixed[mother]);
+    body.push_back(body[mother]);
+    return count() - 1;
+  }
+};
+
+}  // namespace cdfp
