@@ -37,8 +37,8 @@ class Simulation {
   std::int64_t step_count() const;
 
   // Views (n, 3) or (n): valid until the next step (an insertion grows them).
-  std::span<const double> positions() const;
-  std::span<const double> velocities() const;  ///< at the half step behind
+  std::span<const double> positions() const;   ///< m
+  std::span<const double> velocities() const;  ///< half a step ahead of the positions, m/s
   std::span<const double> forces() const;      ///< N, all nodal forces of the last step
   std::span<const double> masses() const;
   Index node_count() const;

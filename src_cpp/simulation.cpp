@@ -1,0 +1,550 @@
+// The step as a list of stages, put together once from what the scene holds.
+//
+//   stage            | reads                        | writes
+//   -----------------+------------------------------+-------------------------------------------
+//   drift            | velocity                     | position, rigid bodies; force = 0
+//   internal_force   | position, material state     | force, material state, critical elements
+//   criterion        | critical elements, stress    | facets that open
+//   insertion        | facets that open             | topology, nodes, element corners, cohesive elements
+//   gravity          | mass                         | force
+//   surface          | broken cohesive elements     | contact segments and edges
+//   global_search    | position, velocity           | candidate pairs (regular, if due)
+//   adaptive_search  | new contact entities         | candidate pairs
+//   local_search     | candidate pairs, position    | contacts: gap, slip
+//   enforcement      | contacts                     | force
+//   traction         | position, velocity, force    | force, cohesive state
+//   accelerate       | force, mass                  | velocity, rigid bodies, constraints
+//   record (if due)  | all                          | history
+#include "cdfp/simulation.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cdfp/error.hpp"
+#include "cdfp/topology.hpp"
+#include "cohesive/cohesive_zone.hpp"
+#include "cohesive/criterion.hpp"
+#include "contact/contact.hpp"
+#include "core/parallel.hpp"
+#include "core/stage_clock.hpp"
+#include "core/stress.hpp"
+#include "element/element_force.hpp"
+#include "integrator/central_difference.hpp"
+#include "integrator/constraints.hpp"
+#include "integrator/rigid_body.hpp"
+#include "monitor/monitor.hpp"
+#include "scene/scene.hpp"
+#include "state/nodes.hpp"
+
+namespace cdfp {
+
+namespace {
+
+constexpr std::int64_t kStepsBetweenEstimates = 50;  ///< of the stable step
+
+double peak_rss_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+bool cracks(const Model& model) {
+  return std::any_of(model.parts.begin(), model.parts.end(),
+                     [](const Part& p) { return !p.cohesive_law.empty(); });
+}
+
+}  // namespace
+
+struct Simulation::Stages {
+  explicit Stages(Model given);
+
+  void step();
+  void record();
+  Energies energies() const;
+  Summary summary() const;
+  Frame frame() const;
+  bool finished() const { return time + 0.5 * step_size >= model.time.end * (1 + 1e-12); }
+
+  Model model;
+  std::vector<std::string> warnings;
+  Threads threads;
+  Nodes nodes;
+  Topology topology;
+  ElementForce elements;
+  std::vector<RigidMotion> bodies;
+  Constraints constraints;
+  std::optional<Criterion> criterion;
+  std::optional<CohesiveZone> cohesive;
+  std::optional<Contact> contact;
+  Monitor monitor;
+  StageClock clock;
+
+  double time = 0;
+  std::int64_t steps = 0;
+  double step_size = 0;
+  double kick = 0;  ///< span of the last change of velocity
+  StepBound stable;
+  double external_work = 0;
+  double initial_energy = 0;
+  double wall_seconds = 0;
+  Index nodes_initial = 0;
+  Index segments_initial = 0;
+
+ private:
+  struct Stage {
+    int clock;
+    std::function<void()> work;
+  };
+  void add_stage(std::vector<Stage>& list, const char* name, std::function<void()> work) {
+    list.push_back({clock.add(name), std::move(work)});
+  }
+  void list_stages();
+  void run(const std::vector<Stage>& list) {
+    for (const Stage& stage : list) clock.time(stage.clock, stage.work);
+  }
+
+  void insert_open_facets();
+  void divide_masses_and_forces();
+  void update_surface();
+  void search();
+  void accelerate_all();
+  void choose_step();
+  void warn_of_step();
+
+  bool has_gravity() const {
+    return std::any_of(model.gravity.begin(), model.gravity.end(), [](double g) { return g != 0; });
+  }
+  Vec3 gravity() const { return Vec3::load(model.gravity.data()); }
+
+  std::vector<Stage> move_;
+  std::vector<Stage> forces_;
+  std::vector<Stage> finish_;
+  std::vector<Index> hexahedra_;
+  std::vector<OpenFacet> open_;
+  Insertion insertion_;
+  std::vector<Index> split_;  ///< nodes whose elements changed in this step
+  std::vector<VertexUse> around_;
+  std::vector<FacetUse> freed_;
+  double next_step_ = 0;
+  int adaptive_clock_ = 0;
+  int regular_clock_ = 0;
+  bool warned_of_step_ = false;
+};
+
+Simulation::Stages::Stages(Model given)
+    : model(std::move(given)),
+      warnings(check_model(model)),
+      threads(model.threads),
+      nodes(model.mesh.coordinates),
+      topology(model.mesh.node_count(), model.mesh.types, model.mesh.connectivity),
+      elements(model),
+      bodies([this] {
+        std::vector<RigidMotion> motions;
+        for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b) {
+          motions.emplace_back(model, static_cast<Index>(b), nodes);
+        }
+        return motions;
+      }()),
+      constraints([this] {
+        const std::vector<Index> first = first_corners(model.mesh);
+        for (const InitialVelocity& initial : model.initial_velocities) {
+          const Index part = part_number(model.mesh, initial.part);
+          for (Index e = 0; e < model.mesh.element_count(); ++e) {
+            if (model.mesh.parts[e] != part) continue;
+            for (Index i = first[e]; i < first[e + 1]; ++i) {
+              Vec3::load(initial.velocity.data())
+                  .store(&nodes.velocity[3 * std::size_t(model.mesh.connectivity[i])]);
+            }
+          }
+        }
+        return Constraints(model, nodes);
+      }()),
+      monitor(model),
+      nodes_initial(model.mesh.node_count()),
+      hexahedra_(model.mesh.connectivity) {
+  elements.add_mass(nodes.mass);
+  for (Index n = 0; n < nodes.count(); ++n) {
+    if (nodes.mass[n] == 0) nodes.fixed[n] = 7;
+  }
+  if (cracks(model)) {
+    criterion.emplace(model);
+    cohesive.emplace(model);
+  }
+  if (!model.contact.surfaces.empty()) {
+    contact.emplace(model, topology);
+    segments_initial = contact->segment_count();
+  }
+  list_stages();
+
+  choose_step();
+  step_size = next_step_;
+  kick = 0.5 * step_size;
+  run(forces_);
+  const bool moving = constraints.any_moving();
+  accelerate(kick, nodes, threads);
+  for (RigidMotion& body : bodies) body.accelerate(kick, gravity(), nodes);
+  if (moving) constraints.apply(0.5 * step_size, kick, nodes);
+  kick = step_size;
+  initial_energy = energies().kinetic + energies().strain;
+  record();
+}
+
+void Simulation::Stages::list_stages() {
+  add_stage(move_, "drift", [this] {
+    drift(step_size, nodes, threads);
+    for (RigidMotion& body : bodies) body.drift(step_size, nodes);
+  });
+  add_stage(forces_, "internal_force",
+            [this] { elements.add_force(nodes.position, nodes.force, step_size, threads); });
+  if (criterion) {
+    add_stage(forces_, "criterion", [this] {
+      criterion->find(
+          elements.critical_elements(), topology, nodes.position,
+          [this](Index e) { return elements.stress(e, nodes.position); }, open_);
+    });
+    add_stage(forces_, "insertion", [this] { insert_open_facets(); });
+  }
+  if (has_gravity()) add_stage(forces_, "gravity", [this] { add_gravity(gravity(), nodes, threads); });
+  if (contact) {
+    if (cohesive) add_stage(forces_, "surface", [this] { update_surface(); });
+    regular_clock_ = clock.add("global_search");
+    adaptive_clock_ = clock.add("adaptive_search");
+    forces_.push_back({clock.add("search_due"), [this] { search(); }});
+    add_stage(forces_, "local_search", [this] { contact->local_search(nodes, threads); });
+    add_stage(forces_, "enforcement", [this] { contact->add_force(nodes, kick, threads); });
+  }
+  if (cohesive) add_stage(forces_, "traction", [this] { cohesive->add_force(nodes, kick, time, threads); });
+  add_stage(finish_, "accelerate", [this] { accelerate_all(); });
+}
+
+void Simulation::Stages::step() {
+  const auto begin = std::chrono::steady_clock::now();
+  run(move_);
+  time += step_size;
+  ++steps;
+  if (steps % kStepsBetweenEstimates == 0) choose_step();
+  kick = 0.5 * (step_size + next_step_);
+  run(forces_);
+  run(finish_);
+  if (steps % model.output.history_interval == 0 || time + 0.5 * next_step_ >= model.time.end) record();
+  step_size = next_step_;
+  wall_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void Simulation::Stages::insert_open_facets() {
+  if (open_.empty()) return;
+  split_.clear();
+  for (const OpenFacet& facet : open_) {
+    topology.insert_cohesive(facet.lower, insertion_);
+    for (const auto& [node, mother] : insertion_.new_nodes) {
+      nodes.clone(mother);
+      split_.push_back(mother);
+      split_.push_back(node);
+    }
+    for (const Insertion::Renumbered& r : insertion_.renumbered) {
+      if (r.element >= topology.bulk_count()) continue;
+      elements.replace_node(r.element, r.corner, r.new_node);
+      hexahedra_[8 * static_cast<std::size_t>(r.element) + r.corner] = r.new_node;
+    }
+    constraints.follow(insertion_);
+    if (contact) contact->follow(insertion_);
+    cohesive->insert(topology, insertion_, facet, nodes, time);
+    monitor.watch_insertion(time, topology, insertion_, nodes);
+  }
+  divide_masses_and_forces();
+}
+
+/// A split node and its copies carry the masses and internal forces of the elements that are theirs now.
+void Simulation::Stages::divide_masses_and_forces() {
+  std::sort(split_.begin(), split_.end());
+  split_.erase(std::unique(split_.begin(), split_.end()), split_.end());
+  std::array<double, 24> corner{};
+  for (const Index node : split_) {
+    topology.elements_around_node(node, around_);
+    double mass = 0;
+    Vec3 force;
+    for (const VertexUse& use : around_) {
+      if (use.element >= topology.bulk_count()) continue;
+      mass += elements.corner_mass(use.element);
+      elements.corner_force(use.element, nodes.position, corner);
+      force += Vec3::load(&corner[3 * static_cast<std::size_t>(use.corner)]);
+    }
+    nodes.mass[node] = mass;
+    force.store(&nodes.force[3 * static_cast<std::size_t>(node)]);
+  }
+}
+
+void Simulation::Stages::update_surface() {
+  const std::span<const Index> broken = cohesive->broken_now();
+  if (broken.empty()) return;
+  freed_.clear();
+  for (const Index e : broken) {
+    freed_.push_back(topology.mate({e, 0}));
+    freed_.push_back(topology.mate({e, 1}));
+  }
+  contact->add_segments(freed_, topology, nodes);
+}
+
+void Simulation::Stages::search() {
+  switch (contact->due(nodes, step_size)) {
+    case Contact::Search::none:
+      break;
+    case Contact::Search::regular:
+      clock.time(regular_clock_, [this] { contact->regular_search(nodes, threads); });
+      break;
+    case Contact::Search::adaptive:
+      clock.time(adaptive_clock_, [this] { contact->adaptive_search(nodes); });
+      break;
+  }
+}
+
+void Simulation::Stages::accelerate_all() {
+  accelerate(kick, nodes, threads);
+  for (RigidMotion& body : bodies) body.accelerate(kick, gravity(), nodes);
+  if (constraints.any_moving()) external_work += constraints.apply(time + 0.5 * next_step_, kick, nodes);
+  if (has_gravity()) {
+    external_work += gravity_work(gravity(), kick, nodes);
+    for (const RigidMotion& body : bodies) external_work += body.gravity_work(gravity(), kick);
+  }
+  if (!bodies.empty()) monitor.watch_force(time, bodies.front().force());
+}
+
+void Simulation::Stages::choose_step() {
+  stable = elements.stable_step(nodes.position, threads);
+  if (!(stable.step > 0) || !std::isfinite(stable.step)) {
+    throw Error(Status::diverged,
+                "no stable step at time " + std::to_string(time) + " s: element " +
+                    std::to_string(stable.element) +
+                    " is inverted or not finite; take a smaller step or a coarser mesh there");
+  }
+  const double fixed = model.time.fixed_step;
+  next_step_ = fixed > 0 ? fixed : model.time.step_factor * stable.step;
+  if (fixed > stable.step && !warned_of_step_) warn_of_step();
+}
+
+void Simulation::Stages::warn_of_step() {
+  warned_of_step_ = true;
+  const Index part = model.mesh.parts[stable.element];
+  warnings.push_back("the fixed step of " + std::to_string(1e9 * model.time.fixed_step) +
+                     " ns is longer than the stable step of " + std::to_string(1e9 * stable.step) +
+                     " ns of element " + std::to_string(stable.element) + " (part '" +
+                     model.mesh.part_names[part] + "') at time " + std::to_string(1e6 * time) +
+                     " us; shorten time.fixed_step or set it to 0");
+}
+
+void Simulation::Stages::record() {
+  const Energies now = energies();
+  if (!std::isfinite(now.balance())) {
+    const Index element = elements.first_inverted(nodes.position);
+    const std::string at = element == kNone ? ""
+                                            : "element " + std::to_string(element) + " (part '" +
+                                                  model.mesh.part_names[model.mesh.parts[element]] +
+                                                  "') is the first that is inverted; ";
+    throw Error(Status::diverged, "the state is no longer finite at time " + std::to_string(1e6 * time) +
+                                      " us, step " + std::to_string(steps) + ": " + at +
+                                      "take a smaller step (stable: " + std::to_string(1e9 * stable.step) +
+                                      " ns)");
+  }
+  std::vector<Monitor::Body> shown;
+  shown.reserve(bodies.size());
+  for (const RigidMotion& body : bodies) shown.push_back({body.center(), body.velocity(), body.force()});
+  monitor.record(time, steps, step_size, now, elements.energies(nodes.position, threads),
+                 cohesive ? cohesive->count() : 0, cohesive ? cohesive->broken_count() : 0, shown);
+}
+
+Energies Simulation::Stages::energies() const {
+  Energies sum;
+  sum.initial = initial_energy;
+  sum.external_work = external_work;
+  sum.kinetic = kinetic_energy(kick, nodes);
+  for (const RigidMotion& body : bodies) sum.kinetic += body.kinetic_energy(kick);
+  for (const PartEnergy& part : elements.energies(nodes.position, threads)) {
+    sum.strain += part.strain;
+    sum.hourglass += part.hourglass;
+    sum.material_dissipated += part.dissipated;
+  }
+  if (cohesive) {
+    const CohesiveZone::Energy energy = cohesive->energy();
+    sum.cohesive_stored = energy.stored;
+    sum.cohesive_dissipated = energy.dissipated;
+    sum.cohesive_friction = energy.friction;
+  }
+  if (contact) {
+    const Contact::Energy energy = contact->energy();
+    sum.contact_stored = energy.stored;
+    sum.contact_friction = energy.friction;
+  }
+  return sum;
+}
+
+Frame Simulation::Stages::frame() const {
+  Frame f;
+  f.time = time;
+  f.step = steps;
+  f.positions = nodes.position;
+  f.velocities = nodes.velocity;
+  f.hexahedra = hexahedra_;
+  f.parts = model.mesh.parts;
+  f.part_names = model.mesh.part_names;
+  for (const SymmetryPlane& plane : model.symmetry_planes)
+    f.symmetry_planes.emplace_back(plane.axis, plane.coordinate);
+  if (cohesive) f.cracks = cohesive->facets(topology);
+
+  const Index count = model.mesh.element_count();
+  f.von_mises.resize(count);
+  f.max_principal.resize(count);
+  threads.for_ranges(count, 256, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t e = begin; e < end; ++e) {
+      const Mat3 s = elements.stress(static_cast<Index>(e), nodes.position);
+      f.von_mises[e] = von_mises(s);
+      f.max_principal[e] = max_principal(s);
+    }
+  });
+  return f;
+}
+
+Summary Simulation::Stages::summary() const {
+  Summary s;
+  s.title = model.title;
+  s.elements = model.mesh.element_count();
+  s.nodes_initial = nodes_initial;
+  s.nodes_final = nodes.count();
+  s.segments_initial = segments_initial;
+  s.segments_final = contact ? contact->segment_count() : 0;
+  s.steps = steps;
+  s.simulated_time_s = time;
+  s.dt_s = step_size;
+  s.dt_stable_s = stable.step;
+  s.dt_element = stable.element;
+  s.wall_s = wall_seconds;
+  s.threads = threads.count();
+  s.peak_rss_mb = peak_rss_mb();
+  monitor.fill(s);
+  if (cohesive) {
+    s.cohesive_inserted = cohesive->count();
+    s.cohesive_broken = cohesive->broken_count();
+    const CohesiveZone::Energy energy = cohesive->energy();
+    s.cohesive_dissipated_over_ga = energy.ga > 0 ? energy.dissipated / energy.ga : 0;
+  }
+  if (!bodies.empty()) {
+    const Vec3 before = Vec3::load(model.rigid_bodies.front().velocity.data());
+    if (norm(before) > 0) s.impactor_rebound_mps = -dot(bodies.front().velocity(), normalized(before));
+  }
+  s.warnings = warnings;
+  if (contact) {
+    s.deepest_penetration_m = contact->deepest_penetration();
+    const std::vector<std::string> more = contact->warnings();
+    s.warnings.insert(s.warnings.end(), more.begin(), more.end());
+  }
+  for (const StageClock::Stage& stage : clock.stages())
+    s.stages.push_back({stage.name, stage.seconds, stage.calls});
+  return s;
+}
+
+Simulation::Simulation(Model model) : stages_(std::make_unique<Stages>(std::move(model))) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+void Simulation::step() {
+  stages_->step();
+}
+
+std::int64_t Simulation::advance(std::int64_t steps) {
+  std::int64_t done = 0;
+  while (done < steps && !finished()) {
+    step();
+    ++done;
+  }
+  return done;
+}
+
+bool Simulation::finished() const {
+  return stages_->finished();
+}
+double Simulation::time() const {
+  return stages_->time;
+}
+double Simulation::step_size() const {
+  return stages_->step_size;
+}
+double Simulation::stable_step() const {
+  return stages_->stable.step;
+}
+Index Simulation::controlling_element() const {
+  return stages_->stable.element;
+}
+std::int64_t Simulation::step_count() const {
+  return stages_->steps;
+}
+
+std::span<const double> Simulation::positions() const {
+  return stages_->nodes.position;
+}
+std::span<const double> Simulation::velocities() const {
+  return stages_->nodes.velocity;
+}
+std::span<const double> Simulation::forces() const {
+  return stages_->nodes.force;
+}
+std::span<const double> Simulation::masses() const {
+  return stages_->nodes.mass;
+}
+Index Simulation::node_count() const {
+  return stages_->nodes.count();
+}
+
+const Model& Simulation::model() const {
+  return stages_->model;
+}
+const Topology& Simulation::topology() const {
+  return stages_->topology;
+}
+
+Index Simulation::body_count() const {
+  return static_cast<Index>(stages_->bodies.size());
+}
+
+Simulation::BodyState Simulation::body(Index rigid_body) const {
+  if (rigid_body < 0 || rigid_body >= body_count()) {
+    throw Error(Status::bad_argument, "there is no rigid body " + std::to_string(rigid_body) +
+                                          "; the scene has " + std::to_string(body_count()));
+  }
+  const RigidMotion& motion = stages_->bodies[rigid_body];
+  BodyState state;
+  motion.center().store(state.position.data());
+  motion.velocity().store(state.velocity.data());
+  motion.angular_velocity().store(state.angular_velocity.data());
+  motion.force().store(state.contact_force.data());
+  return state;
+}
+
+Index Simulation::cohesive_count() const {
+  return stages_->cohesive ? stages_->cohesive->count() : 0;
+}
+Index Simulation::broken_count() const {
+  return stages_->cohesive ? stages_->cohesive->broken_count() : 0;
+}
+
+Energies Simulation::energies() const {
+  return stages_->energies();
+}
+const History& Simulation::history() const {
+  return stages_->monitor.history();
+}
+Frame Simulation::frame() const {
+  return stages_->frame();
+}
+Summary Simulation::summary() const {
+  return stages_->summary();
+}
+
+}  // namespace cdfp
