@@ -1,0 +1,58 @@
+#include "output/files.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+
+namespace cdfp {
+namespace {
+
+void write_stream(const std::filesystem::path& path, const char* mode, std::string_view content) {
+  std::FILE* stream = std::fopen(path.c_str(), mode);
+  if (!stream) throw write_error(path);
+  std::setvbuf(stream, nullptr, _IONBF, 0);
+  const bool written = std::fwrite(content.data(), 1, content.size(), stream) == content.size();
+  const int reason = errno;
+  const bool closed = std::fclose(stream) == 0;
+  if (!written) errno = reason;
+  if (!written || !closed) throw write_error(path);
+}
+
+}  // namespace
+
+Error write_error(const std::filesystem::path& path) {
+  return Error(Status::io, "cannot write '" + path.string() + "': " + std::strerror(errno) +
+                               "; give an output folder on a disk that has room and that you may write to");
+}
+
+std::filesystem::path temporary_beside(const std::filesystem::path& path) {
+  std::filesystem::path temporary = path;
+  temporary += ".part";
+  return temporary;
+}
+
+void move_into_place(const std::filesystem::path& temporary, const std::filesystem::path& path) {
+  if (std::rename(temporary.c_str(), path.c_str()) != 0) throw write_error(path);
+}
+
+void write_whole_file(const std::filesystem::path& path, std::string_view content) {
+  const std::filesystem::path temporary = temporary_beside(path);
+  write_stream(temporary, "wb", content);
+  move_into_place(temporary, path);
+}
+
+void append_to_file(const std::filesystem::path& path, std::string_view lines) {
+  write_stream(path, "ab", lines);
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code reason;
+  std::filesystem::create_directories(folder, reason);
+  if (!reason && std::filesystem::is_directory(folder)) return;
+  throw Error(Status::io, "cannot make the output folder '" + folder.string() + "': " +
+                              (reason ? reason.message() : std::string("a file of that name is there")) +
+                              "; give another folder");
+}
+
+}  // namespace cdfp

@@ -1,0 +1,28 @@
+/// Files that are whole at any moment: written beside their place, then renamed into it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "cdfp/error.hpp"
+
+namespace cdfp {
+
+/// Where `write_whole_file` and others prepare a file before it takes its place.
+std::filesystem::path temporary_beside(const std::filesystem::path& path);
+
+/// Puts a prepared file in its place; who has the old one open goes on reading the old one.
+void move_into_place(const std::filesystem::path& temporary, const std::filesystem::path& path);
+
+void write_whole_file(const std::filesystem::path& path, std::string_view content);
+
+/// Appends whole lines with one write.
+void append_to_file(const std::filesystem::path& path, std::string_view lines);
+
+void make_folder(const std::filesystem::path& folder);
+
+/// Names the file, what the system said and the cure.
+Error write_error(const std::filesystem::path& path);
+
+}  // namespace cdfp
