@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Builds what a benchmark needs, prints its table, and last a line "NAME: pass" or "NAME: short: what".
+#   benchmarks/run.sh NAME [arguments]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+names=$(cd benchmarks && ls ./*.cpp | sed 's|^./||; s|\.cpp$||' | tr '\n' ' ')
+name=${1:?"usage: benchmarks/run.sh NAME; there are: $names"}
+shift
+if [ ! -f "benchmarks/$name.cpp" ]; then
+  echo "there is no benchmark '$name'; there are: $names" >&2
+  exit 2
+fi
+.ci/packages.sh
+log=$(mktemp)
+if ! { cmake -S . -B build -DCMAKE_BUILD_TYPE=Release -DCDFP_BENCHMARKS=ON &&
+       cmake --build build -j "$(nproc)" --target "bench_$name"; } >"$log" 2>&1; then
+  tail -n 60 "$log"
+  exit 1
+fi
+rm -f "$log"
+exec "build/bin/bench_$name" "$@"

@@ -1,0 +1,77 @@
+// Cracks in whole simulations: a bar that is pulled apart, and the laminated-glass case in small.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "cdfp/simulation.hpp"
+#include "driver/case_reader.hpp"
+#include "scenes.hpp"
+
+namespace cdfp {
+namespace {
+
+CohesiveLaw glass_law() {
+  CohesiveLaw law;
+  law.name = "glass";
+  law.strength = 60e6;
+  law.fracture_energy = 10;
+  law.mode_ratio = 5;
+  law.shear_ratio = 1;
+  return law;
+}
+
+TEST(Fracture, SpallBarDissipatesTheFractureEnergy) {
+  // Both ends are pulled: the waves meet in the middle, where the stress would double.
+  Model model;
+  const double h = 1e-3;
+  scenes::add_box(model.mesh, "bar", {60, 1, 1}, {60 * h, h, h});
+  model = scenes::with_part(std::move(model), "bar", {2500, 74e9, 0});
+  model.parts[0].cohesive_law = "glass";
+  model.cohesive_laws = {glass_law()};
+  const double v = 0.75 * 60e6 / (2500 * 5440.6);
+  model.prescribed_velocities = {{"bar_low_x", {true, false, false}, {0, 3e-6}, {0, -v}},
+                                 {"bar_high_x", {true, false, false}, {0, 3e-6}, {0, v}}};
+  model.time = {9e-6, 6e-8, 0.9};
+  Simulation s(std::move(model));
+  s.advance(1000);
+  const Summary summary = s.summary();
+  EXPECT_GE(summary.cohesive_broken, 1);
+  EXPECT_NEAR(summary.cohesive_dissipated_over_ga, 1, 0.02);
+  EXPECT_NEAR(s.energies().balance(), 1, 0.02);
+}
+
+TEST(Fracture, LaminatedGlassInSmall) {
+  const auto run = [](int threads) {
+    Model model = read_case(CDFP_SOURCE_DIR "/examples/laminated_glass/case_quick.toml").model;
+    model.threads = threads;
+    Simulation s(std::move(model));
+    s.advance(1000000);
+    return s;
+  };
+  const Simulation one = run(1);
+  const Simulation two = run(2);
+  ASSERT_EQ(one.node_count(), two.node_count());
+  EXPECT_EQ(std::memcmp(one.positions().data(), two.positions().data(), one.positions().size_bytes()), 0);
+  EXPECT_EQ(std::memcmp(one.velocities().data(), two.velocities().data(), one.velocities().size_bytes()), 0);
+
+  const Summary summary = one.summary();
+  EXPECT_NEAR(summary.energy_balance_min, 1, 0.02);
+  EXPECT_NEAR(summary.energy_balance_max, 1, 0.02);
+  EXPECT_LT(summary.hourglass_over_strain_max, 0.05);
+  const auto crack = [&](const std::string& part) {
+    return *std::find_if(summary.first_cracks.begin(), summary.first_cracks.end(),
+                         [&](const Summary::FirstCrack& c) { return c.part == part; });
+  };
+  const Summary::FirstCrack upper = crack("upper_glass");
+  const Summary::FirstCrack lower = crack("lower_glass");
+  EXPECT_LT(upper.time_s, lower.time_s);
+  EXPECT_EQ(upper.layer, 0) << "the upper glass cracks first at " << upper.layer_face;
+  EXPECT_LT(std::hypot(upper.position[0], upper.position[1]), 10e-3);
+  EXPECT_GT(summary.cohesive_broken, 0);
+  EXPECT_GT(summary.peak_force_n, 100);
+}
+
+}  // namespace
+}  // namespace cdfp
