@@ -1,0 +1,28 @@
+/// The crack pattern of one part at several times, seen from above.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output/plane_view.hpp"
+
+namespace cdfp {
+
+struct CrackPanel {
+  double time = 0;  ///< s
+  std::vector<SeenFacet> facets;
+};
+
+struct CrackPicture {
+  std::string part;            ///< as the title names it
+  std::vector<Point> outline;  ///< of the whole part, m
+  std::vector<Copy> copies;
+  std::optional<Point> impact;  ///< m
+  std::vector<CrackPanel> panels;
+};
+
+void draw_crack_picture(const std::filesystem::path& path, const CrackPicture& picture);
+
+}  // namespace cdfp

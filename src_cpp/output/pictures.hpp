@@ -1,0 +1,34 @@
+/// The pictures of a run: crack patterns, force, energies.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cdfp/results.hpp"
+#include "output/crack_picture.hpp"
+#include "output/undeformed.hpp"
+
+namespace cdfp {
+
+class Pictures {
+ public:
+  Pictures(std::filesystem::path folder, std::vector<std::string> crack_parts);
+
+  void keep(const Frame& frame);
+  void draw(const History& history, const Summary& summary) const;
+
+ private:
+  void begin(const Frame& frame);
+
+  std::filesystem::path folder_;
+  std::vector<std::string> parts_;
+  std::vector<Index> numbers_;  ///< of `parts_` in the frames
+  std::vector<CrackPicture> cracks_;
+  UndeformedNodes undeformed_;
+};
+
+/// At most `count` of the panels, the last among them, the times spread as evenly as they allow.
+std::vector<CrackPanel> choose_panels(const std::vector<CrackPanel>& panels, std::size_t count);
+
+}  // namespace cdfp
