@@ -3,6 +3,15 @@
 /// Elements and nodes are stored; facets, edges and vertices are implicit and named by oriented uses of an
 /// element through its template. Bulk elements come first and keep their numbers; each cohesive insertion
 /// appends one cohesive element. Every query costs time proportional to its answer.
+///
+/// Corners and local facets (outward order: the right-hand normal points out of the element):
+///   hexahedron    0-1-2-3 bottom, 4-5-6-7 above   0 = 0321, 1 = 4567, 2 = 0154, 3 = 1265, 4 = 2376, 5 = 3047
+///   tetrahedron   normal of 0-1-2 points to 3     0 = 021, 1 = 013, 2 = 123, 3 = 203
+///   wedge         0-1-2 bottom, 3-4-5 above       0 = 021, 1 = 345, 2 = 0143, 3 = 1254, 4 = 2035
+///   pyramid       0-1-2-3 base, 4 apex            0 = 0321, 1 = 014, 2 = 124, 3 = 234, 4 = 304
+///   cohesive      upper face, then lower face     0 = 0123 (012) upper, 1 = 4765 (354) lower
+/// Right-hand normals of bottom and base (0-1-2 of wedge and pyramid too) point into the element.
+/// Local edges: around the bottom (base, upper face), around the top (lower face), then bottom to top.
 #pragma once
 
 #include <array>
