@@ -14,8 +14,8 @@ enum class PlateColumns {
   irregular  ///< unstructured quadrilaterals
 };
 
-/// Assumed geometry (the paper's figure is lost): see examples/laminated_glass. Lengths in m, z upwards,
-/// impact point at x = y = 0 on the top face.
+/// Assumed geometry (the paper's figure is lost): see examples/laminated_glass. Lengths in m, z upwards from
+/// the plate's bottom face, impact point at x = y = 0 on its top face.
 struct LaminatedPlate {
   double half_width = 75e-3;
   double lower_glass = 2.5e-3, pvb = 0.76e-3, upper_glass = 2.5e-3, support = 5e-3;
@@ -23,6 +23,7 @@ struct LaminatedPlate {
   Index columns = 67;  ///< along one side; other layouts aim at its square as the count a layer
   PlateColumns layout = PlateColumns::irregular;
   double impactor_radius = 10e-3;
+  double impactor_shaft = 7.73e-3;   ///< length of the cylinder above the head; steel of 35.5 g in all
   double impactor_gap = 0;           ///< between the impactor's lowest point and the plate
   double impactor_refinement = 1.0;  ///< scales the impactor's divisions (1: 2,198 elements, 322 segments)
 };
