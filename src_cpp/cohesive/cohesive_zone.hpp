@@ -14,9 +14,14 @@
 
 namespace cdfp {
 
+enum class CohesiveScheme {
+  mean_traction,  ///< traction is its mean between half steps, solved for: dissipates what the law says
+  plain           ///< traction at the step's opening: for comparison
+};
+
 class CohesiveZone {
  public:
-  explicit CohesiveZone(const Model& model);
+  explicit CohesiveZone(const Model& model, CohesiveScheme scheme = CohesiveScheme::mean_traction);
   ~CohesiveZone();
 
   /// A cohesive element was inserted in the topology (and the nodes cloned). `facet.traction` is what it must
@@ -25,26 +30,37 @@ class CohesiveZone {
               const Nodes& nodes, double time);
 
   /// Adds the cohesive (and closed-face contact and friction) forces at the node pairs to `nodes.force`,
-  /// which holds all other forces of the step already, and advances the state. The same bits for any number
-  /// of threads.
+  /// which holds all other forces of the step already, and advances the state. Velocities must change by
+  /// `step * force / mass` afterwards. The same bits for any number of threads.
   void add_force(Nodes& nodes, double step, double time, const Threads& threads);
 
   /// Cohesive elements (topology numbers) that lost their last point in the last `add_force`, ascending.
+  /// Corners where the nodes are still one do not count.
   std::span<const Index> broken_now() const;
 
   Index count() const;
   Index broken_count() const;
 
+  /// J. `dissipated` is what the forces took from the nodes, less what is stored and what friction turned to
+  /// heat; `ga` what the law says for the same openings. The two agree as far as the time stepping is right.
   struct Energy {
     double stored = 0;
     double dissipated = 0;
     double friction = 0;
-    double ga = 0;  ///< J: sum over points of area * damage * mode-weighted fracture energy
+    double ga = 0;  ///< sum over points of area * damage * mode-weighted fracture energy
   };
   Energy energy() const;
 
   /// For output, in the order of insertion.
   std::vector<CrackFacet> facets(const Topology& topology) const;
+
+  /// What the solution of the node pairs cost, for benchmarks.
+  struct Cost {
+    std::int64_t clusters = 0;     ///< solved
+    std::int64_t evaluations = 0;  ///< of all points of a cluster
+    std::int64_t unsettled = 0;    ///< clusters whose stiffness was fixed over the step
+  };
+  Cost cost() const;
 
  private:
   struct Points;

@@ -1,0 +1,166 @@
+#include "cohesive/cluster_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace cdfp {
+
+namespace {
+
+constexpr int kIterations = 30;
+constexpr int kUndamped = 8;         ///< iterations before a correction that does not help is halved
+constexpr double kTolerance = 1e-9;  ///< of the reach
+
+/// Gaussian elimination with row exchange; `b` becomes the solution.
+void eliminate(int n, double* a, double* b) {
+  for (int k = 0; k < n; ++k) {
+    int pivot = k;
+    for (int i = k + 1; i < n; ++i) {
+      if (std::abs(a[i * n + k]) > std::abs(a[pivot * n + k])) pivot = i;
+    }
+    if (pivot != k) {
+      for (int j = k; j < n; ++j) std::swap(a[k * n + j], a[pivot * n + j]);
+      std::swap(b[k], b[pivot]);
+    }
+    const double inverse = 1 / a[k * n + k];
+    for (int i = k + 1; i < n; ++i) {
+      const double factor = a[i * n + k] * inverse;
+      if (factor == 0) continue;
+      for (int j = k + 1; j < n; ++j) a[i * n + j] -= factor * a[k * n + j];
+      b[i] -= factor * b[k];
+    }
+  }
+  for (int i = n - 1; i >= 0; --i) {
+    double sum = b[i];
+    for (int j = i + 1; j < n; ++j) sum -= a[i * n + j] * b[j];
+    b[i] = sum / a[i * n + i];
+  }
+}
+
+double largest_of(Vec3 a) {
+  return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+}
+
+Vec3 times(Vec3 a, Vec3 b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+}  // namespace
+
+Vec3 ClusterSolver::opening(const Point& p) const {
+  return p.now + half_ * (relative_[p.upper] - relative_[p.lower]);
+}
+
+/// Reactions, loads, residuals and stiffness at `relative_`; returns the largest residual as an opening.
+double ClusterSolver::evaluate() {
+  ++evaluations;
+  const int n = static_cast<int>(nodes.size());
+  const int columns = 3 * (n - 1);
+  for (Node& node : nodes) node.load = {};
+  std::fill_n(stiffness_.begin(), 3 * n * columns, 0.0);
+  for (Point& p : points) {
+    p.reaction = p.increment.at(opening(p));
+    const Vec3 force = p.increment.area * p.reaction.traction;
+    nodes[p.upper].load += force;
+    nodes[p.lower].load -= force;
+    const double scale = half_ * p.increment.area;
+    const int ends[2] = {p.upper, p.lower};
+    for (int row = 0; row < 2; ++row) {
+      for (int column = 0; column < 2; ++column) {
+        if (ends[column] == 0) continue;
+        const double s = row == column ? scale : -scale;
+        double* block = &stiffness_[3 * ends[row] * columns + 3 * (ends[column] - 1)];
+        for (int i = 0; i < 3; ++i) {
+          for (int j = 0; j < 3; ++j) block[i * columns + j] += s * p.reaction.slope.v[3 * i + j];
+        }
+      }
+    }
+  }
+  double size = 0;
+  for (int a = 1; a < n; ++a) {
+    residual_[a] = relative_[a] - (nodes[a].free - nodes[0].free) + times(nodes[a].per_mass, nodes[a].load) -
+                   times(nodes[0].per_mass, nodes[0].load);
+    size = std::max(size, half_ * largest_of(residual_[a]));
+  }
+  return size;
+}
+
+/// One Newton correction of `relative_` from the residuals and the stiffness.
+void ClusterSolver::correct() {
+  const int n = static_cast<int>(nodes.size());
+  const int columns = 3 * (n - 1);
+  matrix_.resize(columns * columns + columns);
+  double* right = &matrix_[columns * columns];
+  for (int a = 1; a < n; ++a) {
+    for (int i = 0; i < 3; ++i) {
+      const int row = 3 * (a - 1) + i;
+      const double own = nodes[a].per_mass[i];
+      const double first = nodes[0].per_mass[i];
+      const double* own_row = &stiffness_[(3 * a + i) * columns];
+      const double* first_row = &stiffness_[i * columns];
+      for (int j = 0; j < columns; ++j) matrix_[row * columns + j] = own * own_row[j] - first * first_row[j];
+      matrix_[row * columns + row] += 1;
+      right[row] = residual_[a][i];
+    }
+  }
+  eliminate(columns, matrix_.data(), right);
+  for (int a = 1; a < n; ++a) {
+    before_[a] = relative_[a];
+    relative_[a] -= Vec3::load(right + 3 * (a - 1));
+  }
+}
+
+bool ClusterSolver::iterate(double tolerance) {
+  double previous = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kIterations; ++i) {
+    double size = evaluate();
+    if (size <= tolerance) return true;
+    for (int halvings = 0; i >= kUndamped && size >= previous && halvings < 6; ++halvings) {
+      for (std::size_t a = 1; a < nodes.size(); ++a) relative_[a] = 0.5 * (relative_[a] + before_[a]);
+      size = evaluate();
+      if (size <= tolerance) return true;
+    }
+    if (!std::isfinite(size)) return false;
+    previous = size;
+    correct();
+  }
+  return evaluate() <= tolerance;
+}
+
+void ClusterSolver::start(bool at_rest) {
+  for (std::size_t a = 1; a < nodes.size(); ++a) {
+    relative_[a] = at_rest ? nodes[a].behind - nodes[0].behind : nodes[a].free - nodes[0].free;
+  }
+}
+
+void ClusterSolver::solve(double step) {
+  const std::size_t n = nodes.size();
+  half_ = 0.5 * step;
+  relative_.assign(n, {});
+  before_.resize(n);
+  residual_.resize(n);
+  stiffness_.resize(9 * n * n);
+  double reach = std::numeric_limits<double>::infinity();
+  for (const Point& p : points) reach = std::min(reach, p.increment.softening.reach);
+  const double tolerance = kTolerance * reach;
+
+  start(true);
+  bool settled = iterate(tolerance);
+  if (!settled) {
+    start(false);
+    settled = iterate(tolerance);
+  }
+  if (!settled) {
+    ++fixed;
+    start(true);
+    for (Point& p : points) p.increment.freeze(opening(p));
+    evaluate();
+    correct();
+    evaluate();
+  }
+  for (Node& node : nodes) node.ahead = node.free - times(node.per_mass, node.load);
+}
+
+}  // namespace cdfp

@@ -1,0 +1,519 @@
+#include "cohesive/cohesive_zone.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "cdfp/error.hpp"
+#include "cohesive/cluster_solver.hpp"
+#include "cohesive/clusters.hpp"
+#include "cohesive/law.hpp"
+
+namespace cdfp {
+
+namespace {
+
+/// Opening over reach below which a face is a stiff spring instead of rigid. The softening line starts there
+/// at the full strength; strength and energy are exact.
+constexpr double kRigidOpening = 1e-6;
+/// Stiffness of a closed face over the stiffness that the nodes' inertia shows in a step. The mean traction
+/// takes any; the plain scheme only what it can follow.
+constexpr double kContactStiffness = 1e4;
+constexpr double kPlainContactStiffness = 0.5;
+constexpr std::int64_t kGrain = 64;
+
+struct Law {
+  CohesiveLaw given;
+  ModeWeights weights;
+};
+
+/// A node pair of a cohesive element.
+struct Point {
+  Index upper = kNone;
+  Index lower = kNone;
+  double area = 0;
+  Softening softening;
+  double largest = 0;  ///< effective opening
+  double contact = 0;  ///< Pa/m; 0 until the pair exists
+  Vec3 slip;           ///< elastic slip of the friction spring
+  double stored = 0;   ///< J/m2, as the next three
+  double work = 0;     ///< of the traction on the law: opening done against it
+  double heat = 0;     ///< of friction
+  double growth = 0;   ///< integral of m dD, m
+
+  bool exists() const { return upper != lower; }
+  bool broken() const { return largest >= softening.reach; }
+};
+
+struct Facet {
+  Index element = kNone;
+  Index part = 0;
+  Index layer = 0;
+  std::int32_t corners = 4;
+  std::int32_t law = 0;
+  double orientation = 1;  ///< of the corner order against the normal from lower to upper
+  Vec3 normal;
+  Vec3 traction;  ///< at insertion
+  bool live = false;
+  bool broken = false;
+  double insertion_time = 0;
+  double broken_time = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+struct CohesiveZone::Points {
+  Points(const Model& model, CohesiveScheme chosen);
+
+  void insert(const Topology& topology, const Insertion& insertion, const OpenFacet& open, const Nodes& nodes,
+              double time);
+  void follow(const Insertion& insertion);
+  void revive(Index facet);
+  void add_force(Nodes& nodes, double step, double time, const Threads& threads);
+  void turn(Index facet, const Nodes& nodes);
+  void load_cluster(const Clusters::Cluster& cluster, const Nodes& nodes, double step,
+                    ClusterSolver& work) const;
+  void load_point(const Clusters::Slot& slot, double step, ClusterSolver& work,
+                  ClusterSolver::Point& p) const;
+  void solve_plain(const Clusters::Cluster& cluster, double step, ClusterSolver& work) const;
+  void store_cluster(const Clusters::Cluster& cluster, Nodes& nodes, double step, ClusterSolver& work);
+  void retire_broken(double time);
+  Energy energy_of(Index facet) const;
+
+  const Law& law_of(Index facet) const { return laws[facets[facet].law]; }
+  std::span<const Point> points_of(Index facet) const {
+    return {&points[4 * static_cast<std::size_t>(facet)], static_cast<std::size_t>(facets[facet].corners)};
+  }
+  double contact_factor() const {
+    return scheme == CohesiveScheme::plain ? kPlainContactStiffness : kContactStiffness;
+  }
+
+  CohesiveScheme scheme;
+  std::vector<Index> part_of_element;
+  std::vector<Index> layer_of_element;
+  std::vector<std::int32_t> law_of_part;
+  std::vector<Law> laws;
+
+  std::vector<Facet> facets;
+  std::vector<Point> points;  ///< four a facet
+  std::vector<Index> live;    ///< facets with a point that exists and is not lost
+  Clusters clusters;
+  std::vector<ClusterSolver> work;  ///< one a thread
+  std::vector<Index> broke;
+  std::vector<Index> broken_elements;
+  Index broken_count = 0;
+  Index bulk_count = 0;
+  Energy closed;  ///< of facets that left `live`
+};
+
+CohesiveZone::Points::Points(const Model& model, CohesiveScheme chosen)
+    : scheme(chosen), part_of_element(model.mesh.parts), layer_of_element(model.mesh.layers) {
+  for (const CohesiveLaw& law : model.cohesive_laws) {
+    if (!(law.strength > 0) || !(law.fracture_energy > 0) || !(law.mode_ratio > 0) ||
+        !(law.shear_ratio > 0)) {
+      throw Error(Status::bad_argument, "cohesive law '" + law.name +
+                                            "' needs a positive strength, fracture_energy, mode_ratio and "
+                                            "shear_ratio");
+    }
+    laws.push_back({law, ModeWeights(law)});
+  }
+  law_of_part.assign(model.mesh.part_names.size(), -1);
+  for (const Part& part : model.parts) {
+    if (part.cohesive_law.empty()) continue;
+    const auto name = std::find(model.mesh.part_names.begin(), model.mesh.part_names.end(), part.name);
+    const auto law = std::find_if(laws.begin(), laws.end(),
+                                  [&](const Law& l) { return l.given.name == part.cohesive_law; });
+    if (name == model.mesh.part_names.end() || law == laws.end()) {
+      throw Error(Status::bad_argument, "part '" + part.name + "' or its cohesive law '" + part.cohesive_law +
+                                            "' does not exist in the model");
+    }
+    law_of_part[name - model.mesh.part_names.begin()] = static_cast<std::int32_t>(law - laws.begin());
+  }
+}
+
+void CohesiveZone::Points::insert(const Topology& topology, const Insertion& insertion, const OpenFacet& open,
+                                  const Nodes& nodes, double time) {
+  bulk_count = topology.bulk_count();
+  follow(insertion);
+  const std::span<const Index> corners = topology.nodes(insertion.cohesive_element);
+  const auto f = static_cast<Index>(facets.size());
+  Facet facet;
+  facet.element = insertion.cohesive_element;
+  facet.part = part_of_element[insertion.lower.element];
+  facet.layer = layer_of_element.empty() ? 0 : layer_of_element[insertion.lower.element];
+  facet.corners = static_cast<std::int32_t>(corners.size() / 2);
+  facet.law = law_of_part[facet.part];
+  facet.insertion_time = time;
+  facet.traction = open.traction;
+  if (facet.law < 0) {
+    throw Error(Status::bad_argument,
+                "element " + std::to_string(insertion.lower.element) +
+                    " belongs to a part without a cohesive law; its facets cannot open");
+  }
+  const Index n = facet.corners;
+  std::array<Vec3, 4> middle;
+  for (Index c = 0; c < n; ++c) middle[c] = 0.5 * (nodes.x(corners[c]) + nodes.x(corners[c + n]));
+
+  // Outward from the lower element.
+  const FacetNodes outward = topology.facet_nodes(insertion.lower);
+  const Vec3 away = cross(nodes.x(outward.nodes[1]) - nodes.x(outward.nodes[0]),
+                          nodes.x(outward.nodes[n - 1]) - nodes.x(outward.nodes[0]));
+  const Vec3 order = cross(middle[1] - middle[0], middle[n - 1] - middle[0]);
+  facet.orientation = dot(away, order) < 0 ? -1 : 1;
+  facets.push_back(facet);
+
+  for (Index c = 0; c < 4; ++c) {
+    Point point;
+    if (c < n) {
+      point.upper = corners[c];
+      point.lower = corners[c + n];
+      const Vec3 next = middle[(c + 1) % n] - middle[c];
+      const Vec3 previous = middle[(c + n - 1) % n] - middle[c];
+      point.area = norm(cross(next, previous)) / (n == 4 ? 4 : 6);
+    }
+    points.push_back(point);
+  }
+  turn(f, nodes);
+  const CohesiveLaw& law = law_of(f).given;
+  double strength = effective_traction(facet.traction, facets[f].normal, law.shear_ratio);
+  if (!(strength > 0)) strength = law.strength;
+  const double reach = 2 * law.fracture_energy / strength;
+  const double start = scheme == CohesiveScheme::plain ? 0 : kRigidOpening;
+  for (Index c = 0; c < n; ++c) {
+    Point& point = points[4 * static_cast<std::size_t>(f) + c];
+    point.softening = {strength / (1 - start), reach};
+    point.largest = start * reach;
+    clusters.add(4 * f + c, point.upper);
+    if (point.exists()) revive(f);
+  }
+}
+
+/// New nodes, and corners of older cohesive elements that name them now.
+void CohesiveZone::Points::follow(const Insertion& insertion) {
+  for (const auto& [node, mother] : insertion.new_nodes) clusters.copy(node, mother);
+  for (const Insertion::Renumbered& r : insertion.renumbered) {
+    const Index f = r.element - bulk_count;
+    if (f < 0 || f >= static_cast<Index>(facets.size())) continue;
+    const Index n = facets[f].corners;
+    Point& point = points[4 * static_cast<std::size_t>(f) + r.corner % n];
+    (r.corner < n ? point.upper : point.lower) = r.new_node;
+    clusters.touch(r.new_node);
+    if (point.exists()) revive(f);
+  }
+}
+
+void CohesiveZone::Points::revive(Index facet) {
+  if (facets[facet].live) return;
+  facets[facet].live = true;
+  live.push_back(facet);
+}
+
+/// The normal of the middle face as it is now.
+void CohesiveZone::Points::turn(Index facet, const Nodes& nodes) {
+  Facet& f = facets[facet];
+  const std::span<const Point> p = points_of(facet);
+  const auto middle = [&](int c) { return nodes.x(p[c].upper) + nodes.x(p[c].lower); };
+  const Vec3 doubled = f.corners == 4 ? cross(middle(2) - middle(0), middle(3) - middle(1))
+                                      : cross(middle(1) - middle(0), middle(2) - middle(0));
+  f.normal = (f.orientation / norm(doubled)) * doubled;
+}
+
+void CohesiveZone::Points::load_cluster(const Clusters::Cluster& cluster, const Nodes& nodes, double step,
+                                        ClusterSolver& w) const {
+  const std::span<const Index> members = clusters.nodes(cluster);
+  w.nodes.resize(members.size());
+  for (std::size_t a = 0; a < members.size(); ++a) {
+    const Index n = members[a];
+    ClusterSolver::Node& node = w.nodes[a];
+    const double per_mass = nodes.body[n] == kNone ? step / nodes.mass[n] : 0.0;
+    const std::uint8_t fixed = nodes.fixed[n];
+    node.per_mass = {fixed & 1 ? 0 : per_mass, fixed & 2 ? 0 : per_mass, fixed & 4 ? 0 : per_mass};
+    node.behind = nodes.v(n);
+    const Vec3 f = nodes.f(n);
+    node.free = node.behind + Vec3{node.per_mass.x * f.x, node.per_mass.y * f.y, node.per_mass.z * f.z};
+  }
+  const std::span<const Clusters::Slot> slots = clusters.slots(cluster);
+  w.points.resize(slots.size());
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    ClusterSolver::Point& p = w.points[i];
+    p.upper = slots[i].upper;
+    p.lower = slots[i].lower;
+    p.now = nodes.x(members[p.upper]) - nodes.x(members[p.lower]);
+    load_point(slots[i], step, w, p);
+  }
+}
+
+void CohesiveZone::Points::load_point(const Clusters::Slot& slot, double step, ClusterSolver& w,
+                                      ClusterSolver::Point& p) const {
+  const Point& point = points[slot.point];
+  const Facet& facet = facets[slot.point / 4];
+  const Law& law = laws[facet.law];
+  const Vec3 behind = w.nodes[p.upper].behind - w.nodes[p.lower].behind;
+  Increment& i = p.increment;
+  const Split from(p.now - 0.5 * step * behind, facet.normal);
+  i = {};
+  i.normal = facet.normal;
+  i.from_n = from.n;
+  i.from_t = from.t;
+  i.weights = law.weights;
+  i.softening = point.softening;
+  i.largest = point.largest;
+  i.r0 = std::min(point.largest, law.weights.opening(from.n, from.t2()));
+  i.unloading = point.largest > 0 ? point.softening.stiffness(point.largest) : 0;
+  i.area = point.area;
+  if (facet.broken) return;
+  i.contact = point.contact;
+  // The elastic slip stays in the face when it turns.
+  const double length = norm(point.slip);
+  if (length > 0) {
+    const Vec3 turned = point.slip - dot(point.slip, facet.normal) * facet.normal;
+    i.slip = (length / norm(turned)) * turned;
+  }
+  if (law.given.friction > 0) {
+    const double damage = std::min(1.0, point.largest / point.softening.reach);
+    i.friction = law.given.friction * (1 - std::pow(1 - damage, law.given.friction_exponent));
+  }
+}
+
+/// Tractions at the openings of the step.
+void CohesiveZone::Points::solve_plain(const Clusters::Cluster& cluster, double step,
+                                       ClusterSolver& w) const {
+  const std::span<const Clusters::Slot> slots = clusters.slots(cluster);
+  for (ClusterSolver::Node& node : w.nodes) node.load = {};
+  for (std::size_t s = 0; s < slots.size(); ++s) {
+    ClusterSolver::Point& p = w.points[s];
+    Increment& i = p.increment;
+    const Split at(p.now, i.normal);
+    i.largest = std::max(i.largest, i.weights.opening(at.n, at.t2()));
+    p.reaction = {};
+    if (i.largest == 0) {
+      p.reaction.traction = facets[slots[s].point / 4].traction;
+    } else {
+      const double k = i.softening.stiffness(i.largest);
+      p.reaction.traction = k * (std::max(at.n, 0.0) * i.normal + i.weights.traction * at.t);
+    }
+    if (at.n < 0 && i.contact > 0) {
+      p.reaction.traction += (i.contact * at.n) * i.normal;
+      const Vec3 before = p.now - step * (w.nodes[p.upper].behind - w.nodes[p.lower].behind);
+      const Vec3 trial = i.slip + at.t - Split(before, i.normal).t;
+      const double limit = -i.friction * i.contact * at.n;
+      const double length = i.contact * norm(trial);
+      p.reaction.slip = length > limit ? (limit / length) * trial : trial;
+      p.reaction.friction = i.contact * p.reaction.slip;
+      p.reaction.traction += p.reaction.friction;
+    }
+    const Vec3 force = i.area * p.reaction.traction;
+    w.nodes[p.upper].load += force;
+    w.nodes[p.lower].load -= force;
+  }
+  for (ClusterSolver::Node& node : w.nodes) {
+    node.ahead = node.free - Vec3{node.per_mass.x * node.load.x, node.per_mass.y * node.load.y,
+                                  node.per_mass.z * node.load.z};
+  }
+}
+
+/// Forces into the nodes; the points' state and accounts at the half step ahead.
+void CohesiveZone::Points::store_cluster(const Clusters::Cluster& cluster, Nodes& nodes, double step,
+                                         ClusterSolver& w) {
+  const std::span<const Index> members = clusters.nodes(cluster);
+  for (std::size_t a = 0; a < members.size(); ++a) {
+    (-w.nodes[a].load).add_to(&nodes.force[3 * static_cast<std::size_t>(members[a])]);
+  }
+  const std::span<const Clusters::Slot> slots = clusters.slots(cluster);
+  for (std::size_t s = 0; s < slots.size(); ++s) {
+    const ClusterSolver::Point& p = w.points[s];
+    const Increment& i = p.increment;
+    Point& point = points[slots[s].point];
+    const Vec3 behind = w.nodes[p.upper].behind - w.nodes[p.lower].behind;
+    const Vec3 ahead = w.nodes[p.upper].ahead - w.nodes[p.lower].ahead;
+    const Vec3 moved = (0.5 * step) * (behind + ahead);
+    const bool plain = scheme == CohesiveScheme::plain;
+    const Vec3 from = plain ? p.now - step * behind : p.now - (0.5 * step) * behind;
+    const Vec3 to = plain ? p.now : from + moved;
+    const Split at(to, i.normal);
+
+    const bool whole = !point.broken();
+    if (whole) {
+      point.growth += weighted_growth(i.weights, i.normal, from, to, point.largest, point.softening.reach);
+    }
+    point.largest = std::max(i.largest, i.weights.opening(at.n, at.t2()));
+    if (whole && point.broken()) w.broke.push_back(slots[s].point);
+
+    const double elastic = 0.5 * i.contact * dot(p.reaction.slip, p.reaction.slip);
+    point.heat += dot(p.reaction.friction, moved) - elastic + 0.5 * i.contact * dot(i.slip, i.slip);
+    point.slip = p.reaction.slip;
+    point.work += dot(p.reaction.traction, moved);
+    const double closed_by = std::min(at.n, 0.0);
+    const double stiffness = point.largest > 0 ? point.softening.stiffness(point.largest) : 0.0;
+    point.stored = 0.5 * stiffness * i.weights.quadratic(at.n, at.t2()) +
+                   0.5 * i.contact * closed_by * closed_by + elastic;
+  }
+}
+
+void CohesiveZone::Points::add_force(Nodes& nodes, double step, double time, const Threads& threads) {
+  broken_elements.clear();
+  clusters.update([this](Index p) {
+    const Point& point = points[p];
+    const bool lost = point.broken() && facets[p / 4].broken;
+    return lost ? NodePair{} : NodePair{point.upper, point.lower};
+  });
+  work.resize(std::max<std::size_t>(work.size(), threads.count()));
+
+  threads.for_ranges(static_cast<std::int64_t>(live.size()), kGrain,
+                     [&](std::int64_t begin, std::int64_t end) {
+                       for (std::int64_t k = begin; k < end; ++k) turn(live[k], nodes);
+                     });
+  const std::span<const Clusters::Cluster> all = clusters.all();
+  threads.for_ranges(static_cast<std::int64_t>(all.size()), kGrain,
+                     [&](std::int64_t begin, std::int64_t end) {
+                       ClusterSolver& w = work[omp_get_thread_num()];
+                       for (std::int64_t k = begin; k < end; ++k) {
+                         const Clusters::Cluster& cluster = all[k];
+                         if (cluster.slots == 0) continue;
+                         for (const Clusters::Slot& slot : clusters.slots(cluster)) {
+                           Point& point = points[slot.point];
+                           if (point.contact > 0) continue;
+                           const double inertia = 1 / nodes.mass[point.upper] + 1 / nodes.mass[point.lower];
+                           point.contact = contact_factor() / (0.5 * step * step * inertia * point.area);
+                         }
+                         load_cluster(cluster, nodes, step, w);
+                         if (scheme == CohesiveScheme::plain) {
+                           solve_plain(cluster, step, w);
+                         } else {
+                           w.solve(step);
+                         }
+                         ++w.solved;
+                         store_cluster(cluster, nodes, step, w);
+                       }
+                     });
+  retire_broken(time);
+}
+
+/// Facets whose last point broke leave the step.
+void CohesiveZone::Points::retire_broken(double time) {
+  broke.clear();
+  for (ClusterSolver& w : work) {
+    for (const Index p : w.broke) broke.push_back(p / 4);
+    w.broke.clear();
+  }
+  if (broke.empty()) return;
+  std::sort(broke.begin(), broke.end());
+  broke.erase(std::unique(broke.begin(), broke.end()), broke.end());
+  std::erase_if(broke, [this](Index f) {
+    const std::span<const Point> p = points_of(f);
+    return std::any_of(p.begin(), p.end(), [](const Point& q) { return q.exists() && !q.broken(); });
+  });
+  if (broke.empty()) return;
+  for (const Index f : broke) {
+    Facet& facet = facets[f];
+    const Energy now = energy_of(f);
+    closed.dissipated += now.dissipated + now.stored;
+    closed.friction += now.friction;
+    closed.ga += now.ga;
+    facet.live = false;
+    for (Index c = 0; c < facet.corners; ++c) {
+      Point& point = points[4 * static_cast<std::size_t>(f) + c];
+      point.stored = point.work = point.heat = point.growth = 0;
+      point.slip = {};
+      if (point.exists()) clusters.touch(point.upper);
+    }
+    if (facet.broken) continue;
+    facet.broken = true;
+    facet.broken_time = time;
+    ++broken_count;
+    broken_elements.push_back(facet.element);
+  }
+  std::erase_if(live, [this](Index f) { return !facets[f].live; });
+}
+
+CohesiveZone::Energy CohesiveZone::Points::energy_of(Index facet) const {
+  Energy sum;
+  for (const Point& p : points_of(facet)) {
+    sum.stored += p.area * p.stored;
+    sum.friction += p.area * p.heat;
+    sum.dissipated += p.area * (p.work - p.stored - p.heat);
+    sum.ga += p.area * 0.5 * p.softening.scale * p.growth;
+  }
+  return sum;
+}
+
+CohesiveZone::CohesiveZone(const Model& model, CohesiveScheme scheme)
+    : points_(std::make_unique<Points>(model, scheme)) {}
+CohesiveZone::~CohesiveZone() = default;
+
+void CohesiveZone::insert(const Topology& topology, const Insertion& insertion, const OpenFacet& facet,
+                          const Nodes& nodes, double time) {
+  points_->insert(topology, insertion, facet, nodes, time);
+}
+
+void CohesiveZone::add_force(Nodes& nodes, double step, double time, const Threads& threads) {
+  points_->add_force(nodes, step, time, threads);
+}
+
+std::span<const Index> CohesiveZone::broken_now() const {
+  return points_->broken_elements;
+}
+
+Index CohesiveZone::count() const {
+  return static_cast<Index>(points_->facets.size());
+}
+
+Index CohesiveZone::broken_count() const {
+  return points_->broken_count;
+}
+
+CohesiveZone::Energy CohesiveZone::energy() const {
+  Energy sum = points_->closed;
+  for (const Index f : points_->live) {
+    const Energy e = points_->energy_of(f);
+    sum.stored += e.stored;
+    sum.dissipated += e.dissipated;
+    sum.friction += e.friction;
+    sum.ga += e.ga;
+  }
+  return sum;
+}
+
+std::vector<CrackFacet> CohesiveZone::facets(const Topology& topology) const {
+  std::vector<CrackFacet> out;
+  out.reserve(points_->facets.size());
+  for (Index f = 0; f < count(); ++f) {
+    const Facet& facet = points_->facets[f];
+    CrackFacet crack;
+    crack.corners = facet.corners;
+    crack.part = facet.part;
+    crack.layer = facet.layer;
+    crack.insertion_time = facet.insertion_time;
+    crack.broken_time = facet.broken_time;
+    const std::span<const Index> nodes = topology.nodes(facet.element);
+    std::copy_n(nodes.begin(), facet.corners, crack.upper.begin());
+    std::copy_n(nodes.begin() + facet.corners, facet.corners, crack.lower.begin());
+    double damage = 0;
+    int existing = 0;
+    for (const Point& p : points_->points_of(f)) {
+      if (!p.exists()) continue;
+      ++existing;
+      damage += std::min(1.0, p.largest / p.softening.reach);
+    }
+    crack.damage = facet.broken ? 1 : existing > 0 ? damage / existing : 0;
+    out.push_back(crack);
+  }
+  return out;
+}
+
+CohesiveZone::Cost CohesiveZone::cost() const {
+  Cost sum;
+  for (const ClusterSolver& w : points_->work) {
+    sum.clusters += w.solved;
+    sum.evaluations += w.evaluations;
+    sum.unsettled += w.fixed;
+  }
+  return sum;
+}
+
+}  // namespace cdfp
