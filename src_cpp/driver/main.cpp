@@ -1,0 +1,70 @@
+// The command `cdfp`: runs case files.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+
+#include "driver/case_reader.hpp"
+#include "driver/run_case.hpp"
+#include "scene/scene.hpp"
+
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kWrongUse = 2;
+constexpr int kInterrupted = 130;
+
+std::string default_folder(const std::string& case_file) {
+  return "out/" + std::filesystem::path(case_file).stem().string();
+}
+
+int check(const std::string& case_file) {
+  const cdfp::Model model = cdfp::read_case(case_file);
+  const std::vector<std::string> warnings = cdfp::check_model(model);
+  std::size_t segments = 0;
+  for (const std::string& name : model.contact.surfaces)
+    segments += cdfp::facet_set(model.mesh, name).facets.size();
+  std::printf("%s: %s: %d elements, %d nodes, %zu segments\n", case_file.c_str(), model.title.c_str(),
+              model.mesh.element_count(), model.mesh.node_count(), segments);
+  for (const std::string& warning : warnings) std::printf("warning: %s\n", warning.c_str());
+  return 0;
+}
+
+int run(const std::string& case_file, const std::string& folder, int threads) {
+  cdfp::Model model = cdfp::read_case(case_file);
+  if (threads > 0) model.threads = threads;
+  return cdfp::run_case(std::move(model), folder) ? 0 : kInterrupted;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Explicit finite elements for impact fracture of laminated glass", "cdfp"};
+  app.set_version_flag("--version", "cdfp " CDFP_VERSION);
+  app.require_subcommand(1);
+  std::string case_file;
+  std::string folder;
+  int threads = 0;
+  CLI::App* run_command = app.add_subcommand("run", "Run a case and write its results");
+  run_command->add_option("CASE", case_file, "Case file (TOML)")->required();
+  run_command->add_option("--out", folder, "Folder of the results (default: out/ and the case file's name)");
+  run_command
+      ->add_option("--threads", threads, "Threads (default: the case's, or as many as the machine has)")
+      ->check(CLI::Range(1, 1024));
+  CLI::App* check_command = app.add_subcommand("check", "Read and check a case without running it");
+  check_command->add_option("CASE", case_file, "Case file (TOML)")->required();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kWrongUse;
+  }
+  try {
+    if (check_command->parsed()) return check(case_file);
+    return run(case_file, folder.empty() ? default_folder(case_file) : folder, threads);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "cdfp: error: %s\n", error.what());
+    return kFailed;
+  }
+}

@@ -1,0 +1,86 @@
+#include "driver/run_case.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <utility>
+#include <vector>
+
+#include "cdfp/simulation.hpp"
+#include "driver/interrupt.hpp"
+#include "driver/progress.hpp"
+#include "driver/summary_table.hpp"
+#include "output/recorder.hpp"
+
+namespace cdfp {
+
+namespace {
+
+constexpr std::chrono::seconds kFlushInterval{5};
+
+std::vector<std::string> parts_that_crack(const Model& model) {
+  std::vector<std::string> names;
+  for (const Part& part : model.parts) {
+    if (!part.cohesive_law.empty()) names.push_back(part.name);
+  }
+  return names;
+}
+
+/// Snapshot times in ascending order, and which come next.
+class Schedule {
+ public:
+  explicit Schedule(std::vector<double> times) : times_(std::move(times)) {
+    std::sort(times_.begin(), times_.end());
+  }
+  /// True at the step nearest to a time that has not been shown.
+  bool due(double time, double step) {
+    const std::size_t before = next_;
+    while (next_ < times_.size() && time >= times_[next_] - 0.5 * step) ++next_;
+    return next_ > before;
+  }
+
+ private:
+  std::vector<double> times_;
+  std::size_t next_ = 0;
+};
+
+void step_to_end(Simulation& simulation, Recorder& recorder, Schedule& schedule) {
+  Progress progress;
+  auto next_flush = std::chrono::steady_clock::now() + kFlushInterval;
+  if (schedule.due(simulation.time(), simulation.step_size())) recorder.snapshot(simulation.frame());
+  while (!simulation.finished() && !interrupted()) {
+    simulation.step();
+    if (schedule.due(simulation.time(), simulation.step_size())) recorder.snapshot(simulation.frame());
+    progress.show_if_due(simulation);
+    if (std::chrono::steady_clock::now() >= next_flush) {
+      recorder.history(simulation.history());
+      next_flush = std::chrono::steady_clock::now() + kFlushInterval;
+    }
+  }
+  progress.show(simulation);
+}
+
+}  // namespace
+
+bool run_case(Model model, const std::string& folder) {
+  const std::vector<std::string> crack_parts = parts_that_crack(model);
+  Simulation simulation(std::move(model));
+  Recorder recorder(folder, crack_parts);
+  Schedule schedule(simulation.model().output.snapshot_times);
+  watch_interrupts();
+  std::exception_ptr failure;
+  try {
+    step_to_end(simulation, recorder, schedule);
+  } catch (const std::exception&) {
+    failure = std::current_exception();
+  }
+  const Summary summary = simulation.summary();
+  recorder.finish(simulation.frame(), simulation.history(), summary);
+  std::fputs(summary_table(summary).c_str(), stdout);
+  std::printf("\n  results in %s\n", folder.c_str());
+  if (failure) std::rethrow_exception(failure);
+  return simulation.finished();
+}
+
+}  // namespace cdfp
