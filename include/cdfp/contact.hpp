@@ -1,0 +1,189 @@
+/// Contact as services that work on a caller's own arrays: global search, projection on a face, and the whole
+/// sequence of search, penalty and friction. Nothing here needs a model or a topology.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cdfp/model.hpp"
+#include "cdfp/types.hpp"
+
+namespace cdfp {
+
+/// Pairs as compressed rows, with chains for what an adaptive search adds later.
+class PairRows {
+ public:
+  Index rows() const { return static_cast<Index>(head_.size()); }
+  std::size_t size() const { return partners_.size() + added_.size(); }
+  bool empty(Index row) const { return head_[row] == kNone && (row >= sorted_rows() || length(row) == 0); }
+
+  /// `visit(partner)` in a fixed order.
+  template <class Visit>
+  void for_each(Index row, Visit&& visit) const {
+    if (row < sorted_rows()) {
+      for (Index i = start_[row]; i < start_[row + 1]; ++i) visit(partners_[i]);
+    }
+    for (Index i = head_[row]; i != kNone; i = next_[i]) visit(added_[i]);
+  }
+  bool contains(Index row, Index partner) const;
+  /// All pairs as compressed rows, partners ascending: those of row `r` stand in [start[r], start[r + 1]).
+  void compress(std::vector<Index>& start, std::vector<Index>& partners) const;
+  std::size_t memory() const;
+
+  /// Starts anew from pairs ordered by partner.
+  void assign(Index rows, std::span<const std::array<Index, 2>> row_and_partner);
+  void add_rows(Index count) { head_.resize(head_.size() + count, kNone); }
+  void add(Index row, Index partner) {
+    next_.push_back(head_[row]);
+    head_[row] = static_cast<Index>(added_.size());
+    added_.push_back(partner);
+  }
+
+ private:
+  Index sorted_rows() const { return static_cast<Index>(start_.size()) - 1; }
+  Index length(Index row) const { return start_[row + 1] - start_[row]; }
+
+  std::vector<Index> start_{0};
+  std::vector<Index> partners_;
+  std::vector<Index> head_, next_, added_;
+};
+
+/// What a global search looks at. Entities keep their numbers; new ones are appended.
+struct SurfaceView {
+  std::span<const double> position;  ///< (n, 3) of all nodes of the mesh, m
+  std::span<const Index> nodes;      ///< contact nodes
+  std::span<const Index> segments;   ///< (m, 4) corners; a triangle has kNone last
+  std::span<const Index> edges;      ///< (e, 2); may be empty
+  std::span<const Index>
+      groups;  ///< one a node of the mesh; entities of one group >= 0 never pair; may be empty
+};
+
+/// Candidate pairs node-segment and edge-edge (LC-Grid and its adaptive update; Chen, Zang, Xu 2015, section
+/// 4.1). A pair is a node in a segment's box grown by the buffer, or two edges whose boxes are at most the
+/// buffer apart along every axis; entities that share a node do not pair.
+///
+/// The cells of a row lie side by side in a table that is never longer than twice the entities: where the
+/// space has more cells, rows are folded onto one another. Time and memory are linear in the entities.
+class ContactSearch {
+ public:
+  /// `cell_factor` w1 and `buffer_factor` w2: cell and buffer over the mean segment length.
+  /// `adaptive`: whether `adaptive` will be called (keeps the cells of segments and edges).
+  ContactSearch(double cell_factor, double buffer_factor, bool adaptive = true);
+  ~ContactSearch();
+  ContactSearch(ContactSearch&&) noexcept;
+  ContactSearch& operator=(ContactSearch&&) noexcept;
+
+  void regular(const SurfaceView& surface);
+  /// Adds the pairs of the entities appended since the last call, and those of old segments and edges that
+  /// now name other nodes at the same place. Cost: the new entities and what lies near them.
+  void adaptive(const SurfaceView& surface, std::span<const Index> renamed_segments = {},
+                std::span<const Index> renamed_edges = {});
+
+  /// Rule (20): adds 2 v_max dt to the travel since the last regular search; true once it reaches the buffer
+  /// (or no search was made yet, or more entities came since than there were).
+  bool due(double largest_speed, double step);
+  double travel() const;  ///< m, bound on the relative movement since the last regular search
+  double buffer() const;  ///< m
+  double cell_length() const;
+
+  const PairRows& node_segments() const;  ///< row: position in `nodes`
+  const PairRows& edge_edges() const;     ///< row: the smaller edge of each pair
+  /// Rows that the last `adaptive` added to (with repetitions).
+  std::span<const Index> touched_node_rows() const;
+  std::span<const Index> touched_edge_rows() const;
+  std::size_t memory() const;
+
+ private:
+  struct Cells;
+  std::unique_ptr<Cells> cells_;
+};
+
+/// The point of a face closest to a given one, by an exact inverse map.
+struct FaceProjection {
+  std::array<double, 4> shape{};   ///< of the corners; sum 1
+  std::array<double, 3> normal{};  ///< unit, outward, at the point
+  double gap = 0;                  ///< m; negative behind the face
+  double outside = 0;  ///< m, how far past the face's border (then the shape functions extrapolate)
+};
+/// `corners`: (3, 3) or (4, 3) in outward order.
+FaceProjection project_on_face(std::span<const double, 3> point, std::span<const double> corners);
+
+/// Search, penalty and friction between the segments of a surface (sections 4.1 to 4.4).
+class SurfaceContact {
+ public:
+  struct Segment {
+    std::array<Index, 4> nodes{kNone, kNone, kNone, kNone};  ///< outward order; a triangle has kNone last
+    Index element = kNone;                                   ///< that owns the face
+    Index part = kNone;                                      ///< names the body in messages
+    double bulk_modulus = 0;                                 ///< Pa
+    double area = 0;                                         ///< m2
+    double volume = 0;                                       ///< m3 of the element
+  };
+  /// Arrays over all nodes of the mesh.
+  struct Arrays {
+    std::span<const double> position;  ///< (n, 3)
+    std::span<const double> velocity;  ///< (n, 3) that led to `position`
+    std::span<const double> mass;      ///< (n)
+    std::span<const Index> group;      ///< rigid body of each node or kNone; may be empty
+    std::span<double> force;           ///< (n, 3); only `add_force` needs it
+  };
+
+  explicit SurfaceContact(const ContactSettings& settings);
+  ~SurfaceContact();
+  SurfaceContact(SurfaceContact&&) noexcept;
+  SurfaceContact& operator=(SurfaceContact&&) noexcept;
+
+  /// Its number. Contact edges come where two segments of one element meet.
+  Index add_segment(const Segment& segment);
+  /// `element` names `new_node` where it named `old_node`, at the same place.
+  void rename(Index element, Index old_node, Index new_node);
+  /// After all renames of a split: the copy takes its share of what holds the mother.
+  void split(Index mother, Index copy);
+
+  enum class Search { none, regular, adaptive };
+  Search due(const Arrays& arrays, double step, int threads = 1);
+  void regular_search(const Arrays& arrays);
+  void adaptive_search(const Arrays& arrays);
+  void local_search(const Arrays& arrays, int threads = 1);
+  void add_force(const Arrays& arrays, double step, int threads = 1);
+
+  Index segment_count() const;
+  Index edge_count() const;
+  Index node_count() const;
+  const ContactSearch& search() const;
+
+  /// A pair that touches: the force acts on the first `first_count` nodes by their weights, its opposite on
+  /// the others by theirs.
+  struct Touch {
+    std::array<Index, 5> nodes{};
+    std::array<double, 5>
+        weights{};          ///< positive on the first side, negative on the other; each side sums to 1
+    Index first_count = 1;  ///< 1: node on face; 2: edge on edge
+    Index count = 0;
+    std::array<double, 3> normal{};  ///< out of the other side
+    double gap = 0;                  ///< m, negative
+    std::array<double, 3> force{};   ///< N
+    Index parts[2] = {kNone, kNone};
+  };
+  std::vector<Touch> touches() const;
+  std::size_t touching_count() const;
+
+  double stored_energy() const;        ///< J, in penalty and stick springs at the last `add_force`
+  double friction_heat() const;        ///< J, so far
+  double deepest_penetration() const;  ///< m
+  void name_parts(std::vector<std::string> names);  ///< for messages
+  std::vector<std::string> warnings() const;
+  /// 1/s2: bound on omega^2 of the contact springs alone (largest row sum of M^-1 K) at the last `add_force`.
+  double stiffness_over_mass() const;
+  std::size_t memory() const;
+
+ private:
+  struct Stages;
+  std::unique_ptr<Stages> stages_;
+};
+
+}  // namespace cdfp

@@ -1,0 +1,340 @@
+/// Which candidates touch: a node goes to one face, edges meet edges (section 4.2, appendices E and F).
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/stages.hpp"
+
+namespace cdfp {
+
+namespace {
+
+/// A face is met from its front: the node's own surface must look against it by at least this cosine. It
+/// keeps nodes from faces beside them (neighbours across a fresh crack, walls that they slide along).
+constexpr double kFacing = 0.1;
+/// Slack past a face's border, over its radius, so that neighbours leave no gap between them.
+constexpr double kBorder = 1e-6;
+/// A node under a concave ridge projects past both faces, by less than its depth; so far a face still takes
+/// it.
+constexpr double kRidge = 0.02;
+/// Gaps above this share of the radius (with its sign) are rounding.
+constexpr double kNoGap = -1e-11;
+constexpr double kLeastSine = 0.05;
+constexpr double kOutOfCone = 0.1;
+
+Vec3 at(const double* x, Index node) {
+  return Vec3::load(x + 3 * static_cast<std::size_t>(node));
+}
+
+}  // namespace
+
+Vec3 SurfaceContact::Stages::segment_normal(const double* x, Index segment) const {
+  const Index* c = surface.corners(segment);
+  const Vec3 a = at(x, c[0]), b = at(x, c[1]), d = at(x, c[2]);
+  const Vec3 n = c[3] == kNone ? cross(b - a, d - a) : cross(d - a, at(x, c[3]) - b);  // E.1: sum of corners
+  const double length = norm(n);
+  return length > 0 ? n / length : Vec3{};
+}
+
+SurfaceContact::Stages::Plane SurfaceContact::Stages::plane(const double* x, Index segment) const {
+  const Index* c = surface.corners(segment);
+  const int count = c[3] == kNone ? 3 : 4;
+  Vec3 corner[4];
+  Plane plane;
+  for (int i = 0; i < count; ++i) plane.centre += corner[i] = at(x, c[i]);
+  plane.centre *= 1.0 / count;
+  const Vec3 n = count == 3 ? cross(corner[1] - corner[0], corner[2] - corner[0])
+                            : cross(corner[2] - corner[0], corner[3] - corner[1]);
+  const double nn = dot(n, n);
+  plane.normal = nn > 0 ? n / std::sqrt(nn) : Vec3{};
+  double radius2 = 0;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 r = corner[i] - plane.centre;
+    radius2 = std::max(radius2, dot(r, r));
+  }
+  plane.radius = std::sqrt(radius2);
+  plane.warp = std::abs(dot(plane.normal, corner[0] - plane.centre));
+  return plane;
+}
+
+FacePoint SurfaceContact::Stages::project(const double* x, Vec3 p, Index segment) const {
+  const Index* c = surface.corners(segment);
+  const Vec3 corner[4] = {at(x, c[0]), at(x, c[1]), at(x, c[2]), c[3] == kNone ? Vec3{} : at(x, c[3])};
+  return c[3] == kNone ? project_on_triangle(p, corner) : project_on_quadrilateral(p, corner);
+}
+
+/// Mean of the unit normals of the node's own faces.
+Vec3 SurfaceContact::Stages::node_normal(const double* x, Index row) const {
+  Vec3 sum;
+  surface.for_each_incident(row, [&](Index segment) { sum += segment_normal(x, segment); });
+  const double length = norm(sum);
+  return length > 0 ? sum / length : Vec3{};
+}
+
+bool SurfaceContact::Stages::shares_element(Index row, Index segment) const {
+  bool shares = false;
+  surface.for_each_incident(
+      row, [&](Index own) { shares |= surface.data(own).element == surface.data(segment).element; });
+  return shares;
+}
+
+bool SurfaceContact::Stages::adjacent(Index segment, Index other) const {
+  const Index *a = surface.corners(segment), *b = surface.corners(other);
+  return std::any_of(a, a + 4,
+                     [&](Index node) { return node != kNone && std::find(b, b + 4, node) != b + 4; });
+}
+
+void SurfaceContact::Stages::look_at_node(const double* x, Index active) {
+  const Index row = active_nodes[active];
+  Hit& hit = hits[active];
+  hit.segment = kNone;
+  const double travel = search.travel();
+  if (wake[row] > travel) return;
+  const Vec3 p = at(x, surface.nodes()[row]);
+
+  // The face that holds the node keeps it while it stays under it.
+  const Index held = holds[row].segment;
+  if (held != kNone) {
+    const FacePoint point = project(x, p, held);
+    const Plane& face = planes[held];
+    if (point.gap < kNoGap * face.radius && point.gap > -surface.data(held).height &&
+        point.outside <= kBorder * face.radius - point.gap) {
+      hit = {held, point};
+      return;
+    }
+  }
+
+  bool have_normal = false;
+  Vec3 own_normal;
+  double best = std::numeric_limits<double>::infinity();
+  double room = std::numeric_limits<double>::infinity();
+  search.node_segments().for_each(row, [&](Index segment) {
+    const Plane& face = planes[segment];
+    const Vec3 from_centre = p - face.centre;
+    const double height = dot(face.normal, from_centre);
+    const double deepest_gap = settings.depth_limit * surface.data(segment).height;
+    const double reach = (1 + kRidge) * face.radius;
+    const double above = height - face.warp;
+    const double below = -height - face.warp - deepest_gap;
+    // Squares first: most candidates leave here.
+    if (above > 0 || below > 0) {
+      room = std::min(room, std::max(above, below));
+      return;
+    }
+    const double distance2 = dot(from_centre, from_centre);
+    if (distance2 > (reach + deepest_gap) * (reach + deepest_gap)) {
+      room = std::min(room, std::sqrt(distance2) - reach - deepest_gap);
+      return;
+    }
+    if (!have_normal) {
+      own_normal = node_normal(x, row);
+      have_normal = true;
+    }
+    if (dot(own_normal, face.normal) > 0.3) {  // turned away; to turn back takes movement
+      room = std::min(room, 0.05 * face.radius);
+      return;
+    }
+    const FacePoint point = project(x, p, segment);
+    if (point.gap > kNoGap * face.radius) {
+      room = std::min(room, std::max(point.gap, 0.0));
+      return;
+    }
+    room = std::min(room, std::max(0.0, point.outside - kRidge * face.radius));
+    const double facing = -dot(own_normal, point.normal);
+    const bool under = point.outside <= kBorder * face.radius;
+    const bool under_ridge =
+        point.outside <= std::min(-point.gap, kRidge * face.radius) && -point.gap <= kRidge * face.radius;
+    if (facing < kFacing || point.gap < -deepest_gap || !(under || under_ridge)) return;
+    const double way_out = -point.gap / facing;
+    if (way_out < best * (1 - 1e-9) && !shares_element(row, segment)) {
+      best = way_out;
+      hit = {segment, point};
+    }
+  });
+  wake[row] = hit.segment == kNone ? travel + room : 0;
+}
+
+/// Appendix F, with the normal held inside both edges' cones of face normals: only then does the way out of
+/// the other body lead over the two edges. `room`: lowered to the travel before which the pair can't touch.
+bool SurfaceContact::Stages::edges_touch(const double* x, Index m, Index n, double& room,
+                                         TouchingPair* touch) const {
+  const Index *ab = surface.ends(m), *cd = surface.ends(n);
+  const Vec3 a = at(x, ab[0]), b = at(x, ab[1]), c = at(x, cd[0]), d = at(x, cd[1]);
+  const Vec3 between = 0.5 * (a + b - c - d);
+  const double length_ab = norm(b - a), length_cd = norm(d - c), shorter = std::min(length_ab, length_cd);
+  const double reach = 0.5 * (length_ab + length_cd);
+  const double distance2 = dot(between, between);
+  if (distance2 > reach * reach) {
+    room = std::min(room, std::sqrt(distance2) - reach);
+    return false;
+  }
+  const LineCrossing crossing = cross_lines(a, b, c, d);
+  if (crossing.sine < kLeastSine) {
+    room = std::min(room, crossing.sine < 0.6 * kLeastSine ? 0.01 * shorter : 0.0);
+    return false;
+  }
+  const Surface::EdgeData &first = surface.edge_data(m), &second = surface.edge_data(n);
+  const Vec3 n1 = segment_normal(x, first.segments[0]), n2 = segment_normal(x, first.segments[1]);
+  const Vec3 n3 = segment_normal(x, second.segments[0]), n4 = segment_normal(x, second.segments[1]);
+  const Vec3 normal = dot(crossing.normal, n3 + n4 - n1 - n2) < 0 ? -crossing.normal : crossing.normal;
+  const double out_of_cone = std::max({dot(normal, n1), dot(normal, n2), -dot(normal, n3), -dot(normal, n4)});
+  if (out_of_cone > kOutOfCone) {
+    room = std::min(room, out_of_cone > kOutOfCone + 0.2 ? 0.02 * shorter * crossing.sine : 0.0);
+    return false;
+  }
+  const double gap = dot(normal, a + crossing.s * (b - a) - c - crossing.t * (d - c));
+  const double deepest_gap = settings.depth_limit * std::min(first.height, second.height);
+  if (gap > kNoGap * shorter || gap < -deepest_gap) {
+    room = std::min(room, std::max({gap, -gap - deepest_gap, 0.0}));
+    return false;
+  }
+  room = 0;
+  constexpr double slack = 1e-9;
+  if (std::min(crossing.s, crossing.t) < -slack || std::max(crossing.s, crossing.t) > 1 + slack) return false;
+  if (touch != nullptr) {
+    *touch = TouchingPair{};
+    touch->nodes = {ab[0], ab[1], cd[0], cd[1], kNone};
+    touch->weights = {1 - crossing.s, crossing.s, crossing.t - 1, -crossing.t, 0};
+    touch->first_count = 2;
+    touch->count = 4;
+    touch->first = m;
+    touch->second = n;
+    touch->normal = normal;
+    touch->gap = gap;
+    touch->stiffness = std::min(first.stiffness, second.stiffness);
+    touch->height = std::min(first.height, second.height);
+  }
+  return true;
+}
+
+void SurfaceContact::Stages::look_at_edge(const double* x, Index active) {
+  const Index edge = active_edges[active];
+  std::array<Index, 4>& partners = edge_hits[active];
+  partners.fill(kNone);
+  const double travel = search.travel();
+  if (edge_wake[edge] > travel) return;
+  double room = std::numeric_limits<double>::infinity();
+  std::size_t found = 0;
+  search.edge_edges().for_each(edge, [&](Index other) {
+    if (edges_touch(x, edge, other, room, nullptr) && found < partners.size()) partners[found++] = other;
+  });
+  edge_wake[edge] = travel + room;
+}
+
+/// A node that moved on to a neighbouring face of about the same direction takes its springs along.
+void SurfaceContact::Stages::keep_or_start(const double* x, const Hit& hit, TouchingPair& touch) {
+  const Index row = touch.first;
+  Hold& hold = holds[row];
+  const bool same = hold.segment == hit.segment;
+  touch.fresh = !(same || (hold.segment != kNone && adjacent(hold.segment, hit.segment) &&
+                           dot(segment_normal(x, hold.segment), hit.point.normal) > 0.5));
+  if (touch.fresh) {
+    touch.heat = hold.grip.stick_energy();
+    hold.grip = Grip{};
+  }
+  hold.segment = hit.segment;
+  hold.stamp = stamp;
+  touch.grip = hold.grip;
+}
+
+/// Edge pairs that go on touching keep their springs; one that follows on an ended one along a ridge (it has
+/// one of its edges, and the other's neighbour) takes them over.
+void SurfaceContact::Stages::follow_edges() {
+  const auto key = [](const TouchingPair& t) { return std::array<Index, 2>{t.first, t.second}; };
+  const auto neighbours = [&](Index m, Index n) {
+    const Index *a = surface.ends(m), *b = surface.ends(n);
+    return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
+  };
+  ended_edges.clear();
+  std::size_t next = 0;
+  for (TouchingPair& old : old_edge_touches) {
+    while (next < edge_touches.size() && key(edge_touches[next]) < key(old)) ++next;
+    if (next < edge_touches.size() && key(edge_touches[next]) == key(old)) {
+      edge_touches[next].grip = old.grip;
+      edge_touches[next].fresh = false;
+    } else {
+      ended_edges.push_back(&old);
+    }
+  }
+  if (ended_edges.empty()) return;
+  for (TouchingPair& touch : edge_touches) {
+    if (!touch.fresh) continue;
+    const auto before = std::find_if(ended_edges.begin(), ended_edges.end(), [&](const TouchingPair* old) {
+      return dot(old->normal, touch.normal) > 0.5 &&
+             ((old->first == touch.first && neighbours(old->second, touch.second)) ||
+              (old->second == touch.second && neighbours(old->first, touch.first)));
+    });
+    if (before == ended_edges.end()) continue;
+    touch.grip = (*before)->grip;
+    touch.fresh = false;
+    ended_edges.erase(before);
+  }
+  for (const TouchingPair* old : ended_edges) heat += old->grip.stick_energy();
+}
+
+void SurfaceContact::local_search(const Arrays& arrays, int threads) {
+  Stages& s = *stages_;
+  const Threads team(threads);
+  const double* x = arrays.position.data();
+
+  ++s.stamp;
+  const std::int64_t faces = static_cast<std::int64_t>(s.active_segments.size());
+  team.for_each(faces, [&](std::int64_t i) {
+    const Index segment = s.active_segments[i];
+    s.planes[segment] = s.plane(x, segment);
+  });
+  const std::int64_t nodes = static_cast<std::int64_t>(s.active_nodes.size());
+  team.for_each(nodes, [&](std::int64_t i) { s.look_at_node(x, static_cast<Index>(i)); });
+  s.hit_nodes.clear();
+  for (std::int64_t i = 0; i < nodes; ++i) {
+    if (s.hits[i].segment != kNone) s.hit_nodes.push_back(static_cast<Index>(i));
+  }
+  std::swap(s.node_touches, s.old_node_touches);
+  s.node_touches.resize(s.hit_nodes.size());
+  team.for_each(static_cast<std::int64_t>(s.hit_nodes.size()), [&](std::int64_t i) {
+    const Stages::Hit& hit = s.hits[s.hit_nodes[i]];
+    const Index row = s.active_nodes[s.hit_nodes[i]];
+    const Index* c = s.surface.corners(hit.segment);
+    const std::array<double, 4>& shape = hit.point.shape;
+    TouchingPair& touch = s.node_touches[i] = TouchingPair{};
+    touch.nodes = {s.surface.nodes()[row], c[0], c[1], c[2], c[3]};
+    touch.weights = {1, -shape[0], -shape[1], -shape[2], -shape[3]};
+    touch.first_count = 1;
+    touch.count = c[3] == kNone ? 4 : 5;
+    touch.first = row;
+    touch.second = hit.segment;
+    touch.normal = hit.point.normal;
+    touch.gap = hit.point.gap;
+    const Surface::SegmentData& data = s.surface.data(hit.segment);
+    touch.stiffness = std::min(data.stiffness, s.surface.node_stiffness(row));
+    touch.height = data.height;
+    s.keep_or_start(x, hit, touch);
+  });
+  for (const TouchingPair& old : s.old_node_touches) {
+    Stages::Hold& hold = s.holds[old.first];
+    if (hold.stamp == s.stamp) continue;
+    s.heat += hold.grip.stick_energy();
+    hold = Stages::Hold{};
+  }
+  for (const TouchingPair& touch : s.node_touches) s.heat += touch.heat;
+
+  const std::int64_t edges = static_cast<std::int64_t>(s.active_edges.size());
+  team.for_each(edges, [&](std::int64_t i) { s.look_at_edge(x, static_cast<Index>(i)); });
+  s.hit_edges.clear();
+  for (std::int64_t i = 0; i < edges; ++i) {
+    for (const Index partner : s.edge_hits[i]) {
+      if (partner == kNone) break;
+      s.hit_edges.push_back({s.active_edges[i], partner});
+    }
+  }
+  std::sort(s.hit_edges.begin(), s.hit_edges.end());
+  std::swap(s.edge_touches, s.old_edge_touches);
+  s.edge_touches.resize(s.hit_edges.size());
+  team.for_each(static_cast<std::int64_t>(s.hit_edges.size()), [&](std::int64_t i) {
+    double room = 0;
+    s.edges_touch(x, s.hit_edges[i][0], s.hit_edges[i][1], room, &s.edge_touches[i]);
+  });
+  s.follow_edges();
+}
+
+}  // namespace cdfp

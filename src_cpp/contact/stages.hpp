@@ -1,0 +1,112 @@
+/// What the stages of contact share: surface, candidates, and the pairs that touch.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cdfp/contact.hpp"
+#include "contact/projection.hpp"
+#include "contact/surface.hpp"
+#include "core/parallel.hpp"
+
+namespace cdfp {
+
+/// Springs of a pair that touches. They last as long as the contact does, across searches.
+struct Grip {
+  double stiffness = 0;  ///< N/m, fixed when the pair first touches, lowered only for stability
+  double offset = 0;  ///< m, <= 0: penetration that was there before the pair was seen; it rises with the gap
+  Vec3 stick;         ///< m, stretch of the tangential spring
+  double stick_energy() const { return 0.5 * stiffness * dot(stick, stick); }
+};
+
+struct TouchingPair {
+  std::array<Index, 5> nodes{};
+  std::array<double, 5> weights{};
+  std::array<double, 5> per_mass{};
+  Index first_count = 1, count = 0;
+  Index first = kNone, second = kNone;  ///< contact node (row) and segment, or two edges
+  bool fresh = true;
+  double gap = 0, stiffness = 0, height = 0;
+  Vec3 normal;
+  Grip grip;
+  Vec3 force;
+  double stored = 0, heat = 0;
+};
+
+struct SurfaceContact::Stages {
+  explicit Stages(const ContactSettings& s)
+      : settings(s), surface(s.penalty_factor), search(s.cell_factor, s.buffer_factor, s.adaptive) {}
+
+  const ContactSettings settings;
+  Surface surface;
+  ContactSearch search;
+  Index searched_nodes = 0, searched_segments = 0, searched_edges = 0;
+  std::vector<double> piece_speed;
+
+  SurfaceView view(const Arrays& arrays) const {
+    return {arrays.position, surface.nodes(), surface.segments(),
+            settings.edge_edge ? std::span<const Index>(surface.edges()) : std::span<const Index>(),
+            arrays.group};
+  }
+
+  /// What holds a contact node: it touches one face at a time.
+  struct Hold {
+    Index segment = kNone;
+    std::int32_t stamp = 0;
+    Grip grip;
+  };
+  /// A segment's mean plane, and how far its points may lie from centre and plane.
+  struct Plane {
+    Vec3 centre, normal;
+    double radius = 0, warp = 0;
+  };
+  struct Hit {
+    Index segment = kNone;
+    FacePoint point;
+  };
+  std::vector<Hold> holds;               // by contact node
+  std::vector<double> wake;              // by contact node: travel before which it can't touch
+  std::vector<std::uint8_t> has_pairs;   // by contact node
+  std::vector<Index> active_nodes;       // with candidates
+  std::vector<std::uint8_t> is_partner;  // by segment
+  std::vector<Index> active_segments;    // candidates of some node
+  std::vector<Plane> planes;             // by segment
+  std::vector<Hit> hits;                 // by active node
+  std::vector<double> edge_wake;         // by edge
+  std::vector<std::uint8_t> edge_has_pairs;
+  std::vector<Index> active_edges;
+  std::vector<std::array<Index, 4>> edge_hits;  // by active edge: partners, kNone after the last
+  std::int32_t stamp = 0;
+  std::vector<Index> hit_nodes;
+  std::vector<std::array<Index, 2>> hit_edges;
+  std::vector<TouchingPair*> ended_edges;
+  std::vector<TouchingPair> node_touches, old_node_touches, edge_touches, old_edge_touches;
+
+  double heat = 0, stored = 0, deepest = 0;
+  struct Deepest {
+    double share = 0, depth = 0;
+    Index node = kNone, element = kNone, part = kNone;
+    bool edges = false;
+  } worst;
+  std::vector<std::string> part_names;
+
+  void grow_to_surface();
+  void activate_node(Index row);
+  void activate_edge(Index edge);
+
+  Vec3 segment_normal(const double* x, Index segment) const;
+  Plane plane(const double* x, Index segment) const;
+  FacePoint project(const double* x, Vec3 p, Index segment) const;
+  Vec3 node_normal(const double* x, Index row) const;
+  bool shares_element(Index row, Index segment) const;
+  bool adjacent(Index segment, Index other) const;
+  void look_at_node(const double* x, Index active);
+  bool edges_touch(const double* x, Index m, Index n, double& room, TouchingPair* touch) const;
+  void look_at_edge(const double* x, Index active);
+  void follow_edges();
+  void keep_or_start(const double* x, const Hit& hit, TouchingPair& touch);
+};
+
+}  // namespace cdfp

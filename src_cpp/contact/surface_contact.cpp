@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "cdfp/error.hpp"
+#include "contact/stages.hpp"
+
+namespace cdfp {
+
+namespace {
+
+constexpr double kWarnShare = 0.1;
+constexpr std::int64_t kSpeedGrain = 4096;
+
+}  // namespace
+
+void SurfaceContact::Stages::grow_to_surface() {
+  holds.resize(surface.node_count());
+  wake.resize(surface.node_count(), 0);
+  has_pairs.resize(surface.node_count(), 0);
+  is_partner.resize(surface.segment_count(), 0);
+  planes.resize(surface.segment_count());
+  if (settings.edge_edge) {
+    edge_wake.resize(surface.edge_count(), 0);
+    edge_has_pairs.resize(surface.edge_count(), 0);
+  }
+  searched_nodes = surface.node_count();
+  searched_segments = surface.segment_count();
+  searched_edges = surface.edge_count();
+  surface.clear_renamed();
+}
+
+void SurfaceContact::Stages::activate_node(Index row) {
+  wake[row] = 0;
+  search.node_segments().for_each(row, [&](Index segment) {
+    if (is_partner[segment]) return;
+    is_partner[segment] = 1;
+    active_segments.push_back(segment);
+  });
+  if (has_pairs[row]) return;
+  has_pairs[row] = 1;
+  active_nodes.push_back(row);
+}
+
+void SurfaceContact::Stages::activate_edge(Index edge) {
+  edge_wake[edge] = 0;
+  if (edge_has_pairs[edge]) return;
+  edge_has_pairs[edge] = 1;
+  active_edges.push_back(edge);
+}
+
+SurfaceContact::SurfaceContact(const ContactSettings& settings) {
+  if (!(settings.penalty_factor > 0) || !(settings.friction >= 0) || !(settings.depth_limit > 0) ||
+      !(settings.depth_limit <= 1)) {
+    throw Error(Status::bad_argument,
+                "contact: penalty_factor must be positive, friction not negative, depth_limit in (0, 1]");
+  }
+  stages_ = std::make_unique<Stages>(settings);
+}
+SurfaceContact::~SurfaceContact() = default;
+SurfaceContact::SurfaceContact(SurfaceContact&&) noexcept = default;
+SurfaceContact& SurfaceContact::operator=(SurfaceContact&&) noexcept = default;
+
+Index SurfaceContact::add_segment(const Segment& segment) {
+  return stages_->surface.add_segment(segment);
+}
+
+void SurfaceContact::rename(Index element, Index old_node, Index new_node) {
+  stages_->surface.rename(element, old_node, new_node);
+}
+
+void SurfaceContact::split(Index mother, Index copy) {
+  Stages& s = *stages_;
+  const Index from = s.surface.row(mother), to = s.surface.row(copy);
+  if (from == kNone || to == kNone || from >= static_cast<Index>(s.holds.size())) return;
+  if (s.holds.size() <= static_cast<std::size_t>(to)) s.holds.resize(to + 1);
+  Stages::Hold& hold = s.holds[from];
+  if (hold.segment == kNone) return;
+  // Both share the springs, so force and energy stay what they were.
+  if (s.surface.on_surface(from)) hold.grip.stiffness *= 0.5;
+  s.holds[to] = hold;
+  if (!s.surface.on_surface(from)) hold = Stages::Hold{};
+}
+
+SurfaceContact::Search SurfaceContact::due(const Arrays& arrays, double step, int threads) {
+  Stages& s = *stages_;
+  const std::vector<Index>& nodes = s.surface.nodes();
+  const std::int64_t count = static_cast<std::int64_t>(nodes.size());
+  s.piece_speed.assign((count + kSpeedGrain - 1) / kSpeedGrain, 0);
+  Threads(threads).for_ranges(count, kSpeedGrain, [&](std::int64_t begin, std::int64_t end) {
+    double fastest = 0;
+    for (std::int64_t i = begin; i < end; ++i) {
+      const double* v = &arrays.velocity[3 * static_cast<std::size_t>(nodes[i])];
+      fastest = std::max(fastest, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    }
+    s.piece_speed[begin / kSpeedGrain] = fastest;
+  });
+  double fastest = 0;
+  for (const double speed : s.piece_speed) fastest = std::max(fastest, speed);
+  if (s.search.due(std::sqrt(fastest), step)) return Search::regular;
+  const bool news = s.surface.node_count() > s.searched_nodes ||
+                    s.surface.segment_count() > s.searched_segments ||
+                    s.surface.edge_count() > s.searched_edges || !s.surface.renamed_segments().empty();
+  if (!news) return Search::none;
+  return s.settings.adaptive ? Search::adaptive : Search::regular;
+}
+
+void SurfaceContact::regular_search(const Arrays& arrays) {
+  Stages& s = *stages_;
+  s.search.regular(s.view(arrays));
+  s.grow_to_surface();
+  std::fill(s.has_pairs.begin(), s.has_pairs.end(), 0);
+  std::fill(s.is_partner.begin(), s.is_partner.end(), 0);
+  std::fill(s.edge_has_pairs.begin(), s.edge_has_pairs.end(), 0);
+  s.active_nodes.clear();
+  s.active_segments.clear();
+  s.active_edges.clear();
+  for (Index row = 0; row < s.surface.node_count(); ++row) {
+    if (!s.search.node_segments().empty(row)) s.activate_node(row);
+  }
+  for (Index edge = 0; edge < s.search.edge_edges().rows(); ++edge) {
+    if (!s.search.edge_edges().empty(edge)) s.activate_edge(edge);
+  }
+  std::sort(s.active_segments.begin(), s.active_segments.end());
+  s.hits.resize(s.active_nodes.size());
+  s.edge_hits.resize(s.active_edges.size());
+}
+
+void SurfaceContact::adaptive_search(const Arrays& arrays) {
+  Stages& s = *stages_;
+  s.search.adaptive(
+      s.view(arrays), s.surface.renamed_segments(),
+      s.settings.edge_edge ? std::span<const Index>(s.surface.renamed_edges()) : std::span<const Index>());
+  s.grow_to_surface();
+  for (const Index row : s.search.touched_node_rows()) s.activate_node(row);
+  for (const Index edge : s.search.touched_edge_rows()) s.activate_edge(edge);
+  s.hits.resize(s.active_nodes.size());
+  s.edge_hits.resize(s.active_edges.size());
+}
+
+Index SurfaceContact::segment_count() const {
+  return stages_->surface.segment_count();
+}
+Index SurfaceContact::edge_count() const {
+  return stages_->surface.edge_count();
+}
+Index SurfaceContact::node_count() const {
+  return stages_->surface.node_count();
+}
+const ContactSearch& SurfaceContact::search() const {
+  return stages_->search;
+}
+
+std::vector<SurfaceContact::Touch> SurfaceContact::touches() const {
+  const Stages& s = *stages_;
+  std::vector<Touch> all;
+  for (const std::vector<TouchingPair>* pairs : {&s.node_touches, &s.edge_touches}) {
+    for (const TouchingPair& p : *pairs) {
+      const bool edges = p.first_count == 2;
+      Index first = kNone;
+      if (edges) {
+        first = s.surface.edge_data(p.first).segments[0];
+      } else {
+        s.surface.for_each_incident(p.first, [&](Index segment) { first = segment; });
+      }
+      const Index second = edges ? s.surface.edge_data(p.second).segments[0] : p.second;
+      all.push_back({p.nodes,
+                     p.weights,
+                     p.first_count,
+                     p.count,
+                     {p.normal.x, p.normal.y, p.normal.z},
+                     p.gap,
+                     {p.force.x, p.force.y, p.force.z},
+                     {first == kNone ? kNone : s.surface.data(first).part, s.surface.data(second).part}});
+    }
+  }
+  return all;
+}
+std::size_t SurfaceContact::touching_count() const {
+  return stages_->node_touches.size() + stages_->edge_touches.size();
+}
+double SurfaceContact::stored_energy() const {
+  return stages_->stored;
+}
+double SurfaceContact::friction_heat() const {
+  return stages_->heat;
+}
+double SurfaceContact::deepest_penetration() const {
+  return stages_->deepest;
+}
+
+void SurfaceContact::name_parts(std::vector<std::string> names) {
+  stages_->part_names = std::move(names);
+}
+
+std::vector<std::string> SurfaceContact::warnings() const {
+  const Stages::Deepest& worst = stages_->worst;
+  if (worst.share <= kWarnShare) return {};
+  const bool named = worst.part >= 0 && worst.part < static_cast<Index>(stages_->part_names.size());
+  char text[400];
+  std::snprintf(
+      text, sizeof text,
+      "contact: %s of node %d went %.3g m deep into element %d%s%s, %.0f %% of that element's height; "
+      "raise contact.penalty_factor or take smaller steps",
+      worst.edges ? "an edge" : "the surface", static_cast<int>(worst.node), worst.depth,
+      static_cast<int>(worst.element), named ? " of part " : "",
+      named ? stages_->part_names[worst.part].c_str() : "", 100 * worst.share);
+  return {text};
+}
+
+std::size_t SurfaceContact::memory() const {
+  const Stages& s = *stages_;
+  return s.surface.memory() + s.search.memory() + s.holds.capacity() * sizeof(Stages::Hold) +
+         s.wake.capacity() * sizeof(double) + s.planes.capacity() * sizeof(Stages::Plane) +
+         s.hits.capacity() * sizeof(Stages::Hit) +
+         (s.node_touches.capacity() + s.old_node_touches.capacity() + s.edge_touches.capacity() +
+          s.old_edge_touches.capacity()) *
+             sizeof(TouchingPair);
+}
+
+FaceProjection project_on_face(std::span<const double, 3> point, std::span<const double> corners) {
+  if (corners.size() != 9 && corners.size() != 12) {
+    throw Error(Status::bad_argument, "project_on_face: a face has 3 or 4 corners, (3, 3) or (4, 3) values");
+  }
+  Vec3 x[4];
+  for (std::size_t i = 0; i < corners.size() / 3; ++i) x[i] = Vec3::load(&corners[3 * i]);
+  const Vec3 p = Vec3::load(point.data());
+  const FacePoint f = corners.size() == 9 ? project_on_triangle(p, x) : project_on_quadrilateral(p, x);
+  return {f.shape, {f.normal.x, f.normal.y, f.normal.z}, f.gap, f.outside};
+}
+
+}  // namespace cdfp
