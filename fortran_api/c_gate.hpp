@@ -1,0 +1,147 @@
+/// What the functions of `cdfp/cdfp.h` share: handles, and exceptions turned into status codes.
+///
+/// A handle is a number that is given out once and never again, dressed as a pointer: a stale handle is
+/// looked up, not found and refused; it is never followed. The table only knows which handles live.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "cdfp/cdfp.h"
+#include "cdfp/error.hpp"
+#include "cdfp/mesh.hpp"
+#include "cdfp/model.hpp"
+#include "cdfp/simulation.hpp"
+#include "cdfp/topology.hpp"
+#include "output/recorder.hpp"
+
+namespace cdfp::gate {
+
+/// What a handle stands for, by its type in C.
+template <class Handle>
+struct Held;
+template <>
+struct Held<cdfp_mesh> {
+  using Object = Mesh;
+  static constexpr const char* kName = "mesh";
+};
+template <>
+struct Held<cdfp_model> {
+  using Object = Model;
+  static constexpr const char* kName = "model";
+};
+template <>
+struct Held<cdfp_simulation> {
+  using Object = Simulation;
+  static constexpr const char* kName = "simulation";
+};
+template <>
+struct Held<cdfp_recorder> {
+  using Object = Recorder;
+  static constexpr const char* kName = "recorder";
+};
+template <>
+struct Held<cdfp_topology> {
+  struct Object {
+    Topology topology;
+    Insertion last;
+  };
+  static constexpr const char* kName = "topology";
+};
+
+// ---- the table of live handles ----
+
+void* keep(const char* kind, std::shared_ptr<void> object);
+void share(const void* handle);
+/// False if the handle is not alive (freed before).
+bool release(const void* handle);
+std::int64_t live_handles();
+
+/// Use of the object behind a handle for the length of a call: many may look, one may change.
+class Lease {
+ public:
+  Lease(const void* handle, const char* kind, bool change);
+  ~Lease();
+  Lease(const Lease&) = delete;
+  Lease& operator=(const Lease&) = delete;
+  void* object() const { return object_.get(); }
+
+ private:
+  const void* handle_;
+  bool change_;
+  std::shared_ptr<void> object_;
+};
+
+template <class Handle>
+class Look {
+ public:
+  explicit Look(const Handle* handle) : lease_(handle, Held<Handle>::kName, false) {}
+  const typename Held<Handle>::Object& operator*() const { return *operator->(); }
+  const typename Held<Handle>::Object* operator->() const {
+    return static_cast<const typename Held<Handle>::Object*>(lease_.object());
+  }
+
+ private:
+  Lease lease_;
+};
+
+template <class Handle>
+class Change {
+ public:
+  explicit Change(Handle* handle) : lease_(handle, Held<Handle>::kName, true) {}
+  typename Held<Handle>::Object& operator*() const { return *operator->(); }
+  typename Held<Handle>::Object* operator->() const {
+    return static_cast<typename Held<Handle>::Object*>(lease_.object());
+  }
+
+ private:
+  Lease lease_;
+};
+
+template <class Handle>
+void give(std::shared_ptr<typename Held<Handle>::Object> object, Handle** handle) {
+  *handle = static_cast<Handle*>(keep(Held<Handle>::kName, std::move(object)));
+}
+
+// ---- errors ----
+
+/// Keeps the text for `cdfp_last_error` and returns the status; never throws.
+std::int32_t remember(Status status, const char* function, const char* message) noexcept;
+/// The same for the exception that is being handled.
+std::int32_t remember_exception(const char* function) noexcept;
+
+template <class Work>
+std::int32_t guarded(const char* function, Work&& work) noexcept {
+  try {
+    work();
+    return CDFP_OK;
+  } catch (...) {
+    return remember_exception(function);
+  }
+}
+
+template <class Handle>
+std::int32_t free_handle(const char* function, Handle** handle) noexcept {
+  return guarded(function, [&] {
+    if (!handle || !*handle) return;
+    release(*handle);
+    *handle = nullptr;
+  });
+}
+
+// ---- arguments ----
+
+[[noreturn]] void refuse(const std::string& message);
+void need(const void* argument, const char* name);
+/// A count or size as the caller gave it.
+std::size_t size_of(std::int64_t count, const char* name);
+/// For arrays: may be null only when empty.
+void need_array(const void* array, std::int64_t count, const char* name);
+/// `number` in [0, count).
+void need_number(std::int64_t number, std::int64_t count, const char* what);
+void copy_text(std::string_view from, char* text, std::int64_t capacity, std::int64_t* length);
+
+}  // namespace cdfp::gate

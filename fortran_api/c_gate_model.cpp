@@ -1,0 +1,243 @@
+#include <algorithm>
+#include <array>
+
+#include "c_gate.hpp"
+
+using namespace cdfp;
+using namespace cdfp::gate;
+
+static_assert(int32_t(Formulation::one_point) == CDFP_ONE_POINT && int32_t(Formulation::full) == CDFP_FULL);
+
+namespace {
+
+std::string text(const char* string, const char* name) {
+  need(string, name);
+  return string;
+}
+
+/// Names that entries are found by.
+std::string name_of(const char* string, const char* argument) {
+  std::string name = text(string, argument);
+  if (name.empty()) refuse(std::string("argument '") + argument + "' is empty; give a name");
+  return name;
+}
+
+std::array<double, 3> vector_or_zero(const double* v) {
+  return v ? std::array<double, 3>{v[0], v[1], v[2]} : std::array<double, 3>{};
+}
+
+std::array<bool, 3> flags_or_none(const int32_t* f) {
+  return f ? std::array<bool, 3>{f[0] != 0, f[1] != 0, f[2] != 0} : std::array<bool, 3>{};
+}
+
+}  // namespace
+
+int32_t cdfp_model_create(cdfp_model** model) {
+  return guarded(__func__, [&] {
+    need(model, "model");
+    give(std::make_shared<Model>(), model);
+  });
+}
+
+int32_t cdfp_model_free(cdfp_model** model) {
+  return free_handle(__func__, model);
+}
+
+int32_t cdfp_model_set_title(cdfp_model* model, const char* title) {
+  return guarded(__func__, [&] { Change(model)->title = text(title, "title"); });
+}
+
+int32_t cdfp_model_set_mesh(cdfp_model* model, int64_t nodes, const double* coordinates, int64_t elements,
+                            const int32_t* hexahedra, const int32_t* parts, const int32_t* layers) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    const std::size_t n = size_of(nodes, "nodes");
+    const std::size_t e = size_of(elements, "elements");
+    need_array(coordinates, nodes, "coordinates");
+    need_array(hexahedra, elements, "hexahedra");
+    need_array(parts, elements, "parts");
+    m->mesh.coordinates.assign(coordinates, coordinates + 3 * n);
+    m->mesh.types.assign(e, ElementType::hexahedron);
+    m->mesh.connectivity.assign(hexahedra, hexahedra + 8 * e);
+    m->mesh.parts.assign(parts, parts + e);
+    m->mesh.layers.assign(layers, layers ? layers + e : nullptr);
+  });
+}
+
+int32_t cdfp_model_add_node_set(cdfp_model* model, const char* name, int64_t count, const int32_t* nodes) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    const std::size_t n = size_of(count, "count");
+    need_array(nodes, count, "nodes");
+    m->mesh.node_sets.push_back({name_of(name, "name"), {nodes, nodes + n}});
+  });
+}
+
+int32_t cdfp_model_add_facet_set(cdfp_model* model, const char* name, int64_t count, const int32_t* facets) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    const std::size_t n = size_of(count, "count");
+    need_array(facets, count, "facets");
+    FacetSet set{name_of(name, "name"), std::vector<FacetUse>(n)};
+    for (std::size_t i = 0; i < n; ++i) set.facets[i] = {facets[2 * i], facets[2 * i + 1]};
+    m->mesh.facet_sets.push_back(std::move(set));
+  });
+}
+
+int32_t cdfp_model_add_elastic_material(cdfp_model* model, const char* name, double density,
+                                        double youngs_modulus, double poissons_ratio) {
+  return guarded(__func__, [&] {
+    Change(model)->materials.push_back(
+        {name_of(name, "name"), ElasticMaterial{density, youngs_modulus, poissons_ratio}});
+  });
+}
+
+int32_t cdfp_model_add_rate_dependent_material(cdfp_model* model, const char* name, double density,
+                                               double poissons_ratio, double static_modulus,
+                                               double rate_modulus, double rate_exponent,
+                                               double smoothing_time) {
+  return guarded(__func__, [&] {
+    Change(model)->materials.push_back(
+        {name_of(name, "name"), RateDependentMaterial{density, poissons_ratio, static_modulus, rate_modulus,
+                                                      rate_exponent, smoothing_time}});
+  });
+}
+
+int32_t cdfp_model_add_rigid_material(cdfp_model* model, const char* name, double density,
+                                      double youngs_modulus, double poissons_ratio) {
+  return guarded(__func__, [&] {
+    Change(model)->materials.push_back(
+        {name_of(name, "name"), RigidMaterial{density, youngs_modulus, poissons_ratio}});
+  });
+}
+
+int32_t cdfp_model_add_cohesive_law(cdfp_model* model, const char* name, double strength,
+                                    double fracture_energy, double mode_ratio, double shear_ratio,
+                                    double friction, double friction_exponent) {
+  return guarded(__func__, [&] {
+    Change(model)->cohesive_laws.push_back({name_of(name, "name"), strength, fracture_energy, mode_ratio,
+                                            shear_ratio, friction, friction_exponent});
+  });
+}
+
+int32_t cdfp_model_add_part(cdfp_model* model, const char* name, const char* material, int32_t formulation,
+                            double hourglass, const char* cohesive_law) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    if (formulation != CDFP_ONE_POINT && formulation != CDFP_FULL) {
+      refuse("formulation is " + std::to_string(formulation) + "; take CDFP_ONE_POINT or CDFP_FULL");
+    }
+    Part part{name_of(name, "name"), name_of(material, "material"), static_cast<Formulation>(formulation),
+              hourglass, cohesive_law ? cohesive_law : ""};
+    m->mesh.part_names.push_back(part.name);
+    m->parts.push_back(std::move(part));
+  });
+}
+
+int32_t cdfp_model_add_rigid_body(cdfp_model* model, const char* part, double mass, const double* inertia,
+                                  const double* velocity, const double* angular_velocity,
+                                  const int32_t* translation_fixed, const int32_t* rotation_fixed) {
+  return guarded(__func__, [&] {
+    RigidBody body;
+    body.part = name_of(part, "part");
+    body.mass = mass;
+    if (inertia) std::copy_n(inertia, 9, body.inertia.emplace().begin());
+    body.velocity = vector_or_zero(velocity);
+    body.angular_velocity = vector_or_zero(angular_velocity);
+    body.translation_fixed = flags_or_none(translation_fixed);
+    body.rotation_fixed = flags_or_none(rotation_fixed);
+    Change(model)->rigid_bodies.push_back(std::move(body));
+  });
+}
+
+int32_t cdfp_model_add_symmetry_plane(cdfp_model* model, int32_t axis, double coordinate) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    need_number(axis, 3, "axis");
+    m->symmetry_planes.push_back({axis, coordinate});
+  });
+}
+
+int32_t cdfp_model_add_prescribed_velocity(cdfp_model* model, const char* node_set, const int32_t* directions,
+                                           int64_t count, const double* times, const double* values) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    const std::size_t n = size_of(count, "count");
+    need(directions, "directions");
+    need_array(values, count, "values");
+    if (!times && n != 1) {
+      refuse("argument 'times' is null with " + std::to_string(n) +
+             " values; without times there is one value, which holds for good");
+    }
+    PrescribedVelocity prescribed{name_of(node_set, "node_set"), flags_or_none(directions), {}, {}};
+    if (times) prescribed.times.assign(times, times + n);
+    prescribed.values.assign(values, values + n);
+    m->prescribed_velocities.push_back(std::move(prescribed));
+  });
+}
+
+int32_t cdfp_model_add_initial_velocity(cdfp_model* model, const char* part, const double* velocity) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    need(velocity, "velocity");
+    m->initial_velocities.push_back({name_of(part, "part"), vector_or_zero(velocity)});
+  });
+}
+
+int32_t cdfp_model_set_gravity(cdfp_model* model, const double* gravity) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    need(gravity, "gravity");
+    m->gravity = vector_or_zero(gravity);
+  });
+}
+
+int32_t cdfp_model_add_contact_surface(cdfp_model* model, const char* facet_set) {
+  return guarded(__func__,
+                 [&] { Change(model)->contact.surfaces.push_back(name_of(facet_set, "facet_set")); });
+}
+
+int32_t cdfp_model_get_contact(const cdfp_model* model, cdfp_contact_settings* settings) {
+  return guarded(__func__, [&] {
+    const Look m(model);
+    need(settings, "settings");
+    const ContactSettings& c = m->contact;
+    *settings = {c.cell_factor, c.buffer_factor, c.penalty_factor, c.friction,
+                 c.depth_limit, c.edge_edge,     c.adaptive};
+  });
+}
+
+int32_t cdfp_model_set_contact(cdfp_model* model, const cdfp_contact_settings* settings) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    need(settings, "settings");
+    ContactSettings& c = m->contact;
+    c.cell_factor = settings->cell_factor;
+    c.buffer_factor = settings->buffer_factor;
+    c.penalty_factor = settings->penalty_factor;
+    c.friction = settings->friction;
+    c.depth_limit = settings->depth_limit;
+    c.edge_edge = settings->edge_edge != 0;
+    c.adaptive = settings->adaptive != 0;
+  });
+}
+
+int32_t cdfp_model_set_end_time(cdfp_model* model, double end) {
+  return guarded(__func__, [&] { Change(model)->time.end = end; });
+}
+
+int32_t cdfp_model_set_fixed_step(cdfp_model* model, double fixed_step) {
+  return guarded(__func__, [&] { Change(model)->time.fixed_step = fixed_step; });
+}
+
+int32_t cdfp_model_set_step_factor(cdfp_model* model, double step_factor) {
+  return guarded(__func__, [&] { Change(model)->time.step_factor = step_factor; });
+}
+
+int32_t cdfp_model_set_history_interval(cdfp_model* model, int64_t history_interval) {
+  return guarded(__func__, [&] { Change(model)->output.history_interval = history_interval; });
+}
+
+int32_t cdfp_model_set_threads(cdfp_model* model, int32_t threads) {
+  return guarded(__func__, [&] { Change(model)->threads = threads; });
+}

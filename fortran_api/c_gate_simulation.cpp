@@ -1,0 +1,286 @@
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include "c_gate.hpp"
+
+using namespace cdfp;
+using namespace cdfp::gate;
+
+namespace {
+
+template <class Value>
+void set(Value* out, Value value, const char* name) {
+  need(out, name);
+  *out = value;
+}
+
+void show(std::span<const double> values, std::size_t per_node, const double** data, int64_t* nodes,
+          const char* name) {
+  need(data, name);
+  need(nodes, "nodes");
+  *data = values.data();
+  *nodes = static_cast<int64_t>(values.size() / per_node);
+}
+
+/// Parts whose cracks get a picture each.
+std::vector<std::string> parts_that_crack(const Model& model) {
+  std::vector<std::string> names;
+  for (const Part& part : model.parts) {
+    if (!part.cohesive_law.empty()) names.push_back(part.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+int32_t cdfp_simulation_create(const cdfp_model* model, cdfp_simulation** simulation) {
+  return guarded(__func__, [&] {
+    const Look m(model);
+    need(simulation, "simulation");
+    give(std::make_shared<Simulation>(*m), simulation);
+  });
+}
+
+int32_t cdfp_simulation_free(cdfp_simulation** simulation) {
+  return free_handle(__func__, simulation);
+}
+
+int32_t cdfp_simulation_step(cdfp_simulation* simulation) {
+  return guarded(__func__, [&] { Change(simulation)->step(); });
+}
+
+int32_t cdfp_simulation_advance(cdfp_simulation* simulation, int64_t steps, int64_t* done) {
+  return guarded(__func__, [&] {
+    const Change s(simulation);
+    if (steps < 0) refuse("argument 'steps' is negative (" + std::to_string(steps) + ")");
+    const int64_t before = s->step_count();
+    if (done) *done = 0;
+    s->advance(steps);
+    if (done) *done = s->step_count() - before;
+  });
+}
+
+int32_t cdfp_simulation_advance_to(cdfp_simulation* simulation, double time, int64_t* done) {
+  return guarded(__func__, [&] {
+    const Change s(simulation);
+    if (!(time >= 0)) refuse("argument 'time' is " + std::to_string(time) + "; it must not be negative");
+    if (done) *done = 0;
+    while (!s->finished() && s->time() + 0.5 * s->step_size() < time) {
+      s->step();
+      if (done) ++*done;
+    }
+  });
+}
+
+int32_t cdfp_simulation_finished(const cdfp_simulation* simulation, int32_t* finished) {
+  return guarded(__func__, [&] { set(finished, int32_t{Look(simulation)->finished()}, "finished"); });
+}
+
+int32_t cdfp_simulation_time(const cdfp_simulation* simulation, double* time) {
+  return guarded(__func__, [&] { set(time, Look(simulation)->time(), "time"); });
+}
+
+int32_t cdfp_simulation_step_size(const cdfp_simulation* simulation, double* step_size) {
+  return guarded(__func__, [&] { set(step_size, Look(simulation)->step_size(), "step_size"); });
+}
+
+int32_t cdfp_simulation_stable_step(const cdfp_simulation* simulation, double* stable_step) {
+  return guarded(__func__, [&] { set(stable_step, Look(simulation)->stable_step(), "stable_step"); });
+}
+
+int32_t cdfp_simulation_controlling_element(const cdfp_simulation* simulation, int32_t* element) {
+  return guarded(__func__, [&] { set(element, Look(simulation)->controlling_element(), "element"); });
+}
+
+int32_t cdfp_simulation_step_count(const cdfp_simulation* simulation, int64_t* steps) {
+  return guarded(__func__, [&] { set(steps, Look(simulation)->step_count(), "steps"); });
+}
+
+int32_t cdfp_simulation_node_count(const cdfp_simulation* simulation, int64_t* nodes) {
+  return guarded(__func__, [&] { set(nodes, int64_t{Look(simulation)->node_count()}, "nodes"); });
+}
+
+int32_t cdfp_simulation_positions(const cdfp_simulation* simulation, const double** positions,
+                                  int64_t* nodes) {
+  return guarded(__func__, [&] { show(Look(simulation)->positions(), 3, positions, nodes, "positions"); });
+}
+
+int32_t cdfp_simulation_velocities(const cdfp_simulation* simulation, const double** velocities,
+                                   int64_t* nodes) {
+  return guarded(__func__, [&] { show(Look(simulation)->velocities(), 3, velocities, nodes, "velocities"); });
+}
+
+int32_t cdfp_simulation_forces(const cdfp_simulation* simulation, const double** forces, int64_t* nodes) {
+  return guarded(__func__, [&] { show(Look(simulation)->forces(), 3, forces, nodes, "forces"); });
+}
+
+int32_t cdfp_simulation_masses(const cdfp_simulation* simulation, const double** masses, int64_t* nodes) {
+  return guarded(__func__, [&] { show(Look(simulation)->masses(), 1, masses, nodes, "masses"); });
+}
+
+int32_t cdfp_simulation_body_count(const cdfp_simulation* simulation, int64_t* bodies) {
+  return guarded(__func__, [&] { set(bodies, int64_t{Look(simulation)->body_count()}, "bodies"); });
+}
+
+int32_t cdfp_simulation_body(const cdfp_simulation* simulation, int64_t body, cdfp_body_state* state) {
+  return guarded(__func__, [&] {
+    const Look s(simulation);
+    need(state, "state");
+    need_number(body, s->body_count(), "rigid body");
+    const Simulation::BodyState now = s->body(static_cast<Index>(body));
+    std::copy_n(now.position.begin(), 3, state->position);
+    std::copy_n(now.velocity.begin(), 3, state->velocity);
+    std::copy_n(now.angular_velocity.begin(), 3, state->angular_velocity);
+    std::copy_n(now.contact_force.begin(), 3, state->contact_force);
+  });
+}
+
+int32_t cdfp_simulation_cohesive_count(const cdfp_simulation* simulation, int64_t* inserted,
+                                       int64_t* broken) {
+  return guarded(__func__, [&] {
+    const Look s(simulation);
+    need(inserted, "inserted");
+    need(broken, "broken");
+    *inserted = s->cohesive_count();
+    *broken = s->broken_count();
+  });
+}
+
+int32_t cdfp_simulation_energies(const cdfp_simulation* simulation, cdfp_energies* energies) {
+  return guarded(__func__, [&] {
+    const Look s(simulation);
+    need(energies, "energies");
+    const Energies e = s->energies();
+    *energies = {e.kinetic,           e.strain,
+                 e.hourglass,         e.material_dissipated,
+                 e.cohesive_stored,   e.cohesive_dissipated,
+                 e.cohesive_friction, e.contact_stored,
+                 e.contact_friction,  e.external_work,
+                 e.initial,           e.balance()};
+  });
+}
+
+int32_t cdfp_simulation_summary(const cdfp_simulation* simulation, cdfp_summary* summary) {
+  return guarded(__func__, [&] {
+    const Look sim(simulation);
+    need(summary, "summary");
+    const Summary s = sim->summary();
+    *summary = {s.elements,
+                s.nodes_initial,
+                s.nodes_final,
+                s.segments_initial,
+                s.segments_final,
+                s.steps,
+                s.threads,
+                s.dt_element,
+                s.cohesive_inserted,
+                s.cohesive_broken,
+                s.simulated_time_s,
+                s.dt_s,
+                s.dt_stable_s,
+                s.wall_s,
+                s.peak_rss_mb,
+                s.energy_balance_min,
+                s.energy_balance_max,
+                s.hourglass_over_strain_max,
+                s.cohesive_dissipated_over_ga,
+                s.first_contact_s,
+                s.peak_force_n,
+                s.peak_force_time_s,
+                s.impactor_rebound_mps,
+                s.deepest_penetration_m};
+  });
+}
+
+int32_t cdfp_simulation_first_crack(const cdfp_simulation* simulation, const char* part, double* time,
+                                    int32_t* layer, double* position) {
+  return guarded(__func__, [&] {
+    const Look s(simulation);
+    need(part, "part");
+    need(time, "time");
+    need(layer, "layer");
+    need(position, "position");
+    const Summary summary = s->summary();
+    for (const Summary::FirstCrack& crack : summary.first_cracks) {
+      if (crack.part != part) continue;
+      *time = crack.time_s;
+      *layer = crack.layer;
+      std::copy_n(crack.position.begin(), 3, position);
+      return;
+    }
+    refuse("no part '" + std::string(part) + "' that may crack; give the part a cohesive law");
+  });
+}
+
+int32_t cdfp_simulation_warning_count(const cdfp_simulation* simulation, int64_t* count) {
+  return guarded(__func__, [&] {
+    set(count, static_cast<int64_t>(Look(simulation)->summary().warnings.size()), "count");
+  });
+}
+
+int32_t cdfp_simulation_warning(const cdfp_simulation* simulation, int64_t warning, char* text,
+                                int64_t capacity, int64_t* length) {
+  return guarded(__func__, [&] {
+    const std::vector<std::string> warnings = Look(simulation)->summary().warnings;
+    need_number(warning, static_cast<int64_t>(warnings.size()), "warning");
+    copy_text(warnings[warning], text, capacity, length);
+  });
+}
+
+int32_t cdfp_simulation_history(const cdfp_simulation* simulation, const double** values, int64_t* rows,
+                                int64_t* columns) {
+  return guarded(__func__, [&] {
+    const Look s(simulation);
+    need(values, "values");
+    need(rows, "rows");
+    need(columns, "columns");
+    const History& history = s->history();
+    *values = history.values.data();
+    *rows = static_cast<int64_t>(history.rows());
+    *columns = static_cast<int64_t>(history.columns.size());
+  });
+}
+
+int32_t cdfp_simulation_history_column(const cdfp_simulation* simulation, int64_t column, char* text,
+                                       int64_t capacity, int64_t* length) {
+  return guarded(__func__, [&] {
+    const Look s(simulation);
+    const std::vector<std::string>& columns = s->history().columns;
+    need_number(column, static_cast<int64_t>(columns.size()), "column");
+    copy_text(columns[column], text, capacity, length);
+  });
+}
+
+int32_t cdfp_recorder_create(const cdfp_simulation* simulation, const char* folder,
+                             cdfp_recorder** recorder) {
+  return guarded(__func__, [&] {
+    const Look s(simulation);
+    need(folder, "folder");
+    need(recorder, "recorder");
+    if (*folder == '\0') refuse("argument 'folder' is empty; name a folder, such as 'out'");
+    give(std::make_shared<Recorder>(folder, parts_that_crack(s->model())), recorder);
+  });
+}
+
+int32_t cdfp_recorder_free(cdfp_recorder** recorder) {
+  return free_handle(__func__, recorder);
+}
+
+int32_t cdfp_recorder_snapshot(cdfp_recorder* recorder, const cdfp_simulation* simulation) {
+  return guarded(__func__, [&] {
+    const Change r(recorder);
+    const Look s(simulation);
+    r->snapshot(s->frame());
+    r->history(s->history());
+  });
+}
+
+int32_t cdfp_recorder_finish(cdfp_recorder* recorder, const cdfp_simulation* simulation) {
+  return guarded(__func__, [&] {
+    const Change r(recorder);
+    const Look s(simulation);
+    r->finish(s->frame(), s->history(), s->summary());
+  });
+}

@@ -1,0 +1,24 @@
+!> Explicit finite elements for impact fracture of laminated glass, for Fortran programs.
+!>
+!> - Define a `cdfp_model`, make a `cdfp_simulation` of it, advance that and look at its state;
+!>   `cdfp_recorder` keeps results in a folder. `cdfp_topology` (TopS) works alone on a program's own
+!>   connectivity.
+!> - Every procedure takes an optional `stat` (0: done, or one of CDFP_BAD_ARGUMENT and the like) and
+!>   `errmsg`. Without `stat` an error stops the program with the message.
+!> - A copy of an object by assignment is one more owner of the same object: what is done to one is seen by
+!>   both. The object goes with its last owner. `free` may be called twice.
+!> - Numbers count from 1 in arguments and results; 0 is "none". In messages of errors they count from 0.
+!> - Different objects may be used by different threads at once.
+module cdfp
+  use cdfp_c, only: &
+    CDFP_OK, CDFP_BAD_ARGUMENT, CDFP_BAD_INPUT, CDFP_BAD_MESH, CDFP_BAD_STATE, CDFP_DIVERGED, CDFP_IO, &
+    CDFP_UNAVAILABLE, CDFP_INTERNAL, CDFP_REGULAR, CDFP_GRADED, CDFP_O_GRID, CDFP_IRREGULAR, CDFP_ONE_POINT, &
+    CDFP_FULL, CDFP_HEXAHEDRON, CDFP_TETRAHEDRON, CDFP_WEDGE, CDFP_PYRAMID, CDFP_COHESIVE_QUADRILATERAL, &
+    CDFP_COHESIVE_TRIANGLE, cdfp_laminated_plate, cdfp_energies, cdfp_body_state, cdfp_summary
+  use cdfp_meshes, only: cdfp_mesh, default_laminated_plate
+  use cdfp_models, only: cdfp_model
+  use cdfp_simulations, only: cdfp_simulation, cdfp_recorder
+  use cdfp_topologies, only: cdfp_topology
+  implicit none
+  public
+end module cdfp

@@ -1,0 +1,364 @@
+!> What to simulate.
+module cdfp_models
+  use, intrinsic :: iso_c_binding
+  use cdfp_c
+  use cdfp_handles
+  implicit none
+  private
+  public :: cdfp_model
+
+  !> Names tie the entries together, in any order; `cdfp_simulation` checks them. All arguments are copied.
+  !> Numbers of nodes, elements, facets, parts, layers and axes count from 1. Units are SI.
+  type :: cdfp_model
+    type(counted_handle) :: handle
+  contains
+    procedure :: create
+    procedure :: free
+    procedure :: set_title
+    procedure :: set_mesh
+    procedure :: add_node_set
+    procedure :: add_facet_set
+    procedure :: add_elastic_material
+    procedure :: add_rate_dependent_material
+    procedure :: add_rigid_material
+    procedure :: add_cohesive_law
+    procedure :: add_part
+    procedure :: add_rigid_body
+    procedure :: add_symmetry_plane
+    procedure :: add_prescribed_velocity
+    procedure :: add_initial_velocity
+    procedure :: set_gravity
+    procedure :: add_contact_surface
+    procedure :: set_contact
+    procedure :: set_time
+    procedure :: set_history_interval
+    procedure :: set_threads
+  end type
+
+contains
+
+  !> An empty model.
+  subroutine create(this, stat, errmsg)
+    class(cdfp_model), intent(inout) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call this%handle%free()
+    call report(cdfp_model_create(this%handle%address), stat, errmsg)
+  end subroutine
+
+  subroutine free(this)
+    class(cdfp_model), intent(inout) :: this
+
+    call this%handle%free()
+  end subroutine
+
+  subroutine set_title(this, title, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: title
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_set_title(this%handle%address, c_text(title)), stat, errmsg)
+  end subroutine
+
+  !> `coordinates` (3, nodes); `hexahedra` (8, elements): bottom corners, then top; `parts`: part of each
+  !> element, by the order of `add_part`; `layers`: through the thickness, from the bottom of the part.
+  subroutine set_mesh(this, coordinates, hexahedra, parts, layers, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    real(c_double), contiguous, intent(in) :: coordinates(:, :)
+    integer(c_int32_t), contiguous, intent(in) :: hexahedra(:, :)
+    integer(c_int32_t), contiguous, intent(in) :: parts(:)
+    integer(c_int32_t), contiguous, intent(in), optional :: layers(:)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t), allocatable :: layers_from_0(:)
+
+    if (size(coordinates, 1) /= 3) then
+      call refuse('set_mesh: coordinates must be of shape (3, nodes)', stat, errmsg)
+      return
+    else if (size(hexahedra, 1) /= 8) then
+      call refuse('set_mesh: hexahedra must be of shape (8, elements)', stat, errmsg)
+      return
+    else if (size(parts) /= size(hexahedra, 2)) then
+      call refuse('set_mesh: parts must name one part for each element', stat, errmsg)
+      return
+    end if
+    if (present(layers)) then
+      if (size(layers) /= size(hexahedra, 2)) then
+        call refuse('set_mesh: layers must name one layer for each element', stat, errmsg)
+        return
+      end if
+      layers_from_0 = layers - 1_c_int32_t
+    end if
+    ! an array that is not allocated is an absent argument
+    call report(cdfp_model_set_mesh(this%handle%address, size(coordinates, 2, c_int64_t), coordinates, &
+                                    size(hexahedra, 2, c_int64_t), hexahedra - 1_c_int32_t, &
+                                    parts - 1_c_int32_t, layers_from_0), stat, errmsg)
+  end subroutine
+
+  subroutine add_node_set(this, name, nodes, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), contiguous, intent(in) :: nodes(:)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_add_node_set(this%handle%address, c_text(name), size(nodes, kind=c_int64_t), &
+                                        nodes - 1_c_int32_t), stat, errmsg)
+  end subroutine
+
+  !> `facets` (2, n): element and its local facet, 1 to 6.
+  subroutine add_facet_set(this, name, facets, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), contiguous, intent(in) :: facets(:, :)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    if (size(facets, 1) /= 2) then
+      call refuse('add_facet_set: facets must be of shape (2, n): element and its facet', stat, errmsg)
+      return
+    end if
+    call report(cdfp_model_add_facet_set(this%handle%address, c_text(name), size(facets, 2, c_int64_t), &
+                                         facets - 1_c_int32_t), stat, errmsg)
+  end subroutine
+
+  !> Linear elastic with finite rotation.
+  subroutine add_elastic_material(this, name, density, youngs_modulus, poissons_ratio, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: name
+    real(c_double), intent(in) :: density, youngs_modulus, poissons_ratio
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_add_elastic_material(this%handle%address, c_text(name), density, youngs_modulus, &
+                                                poissons_ratio), stat, errmsg)
+  end subroutine
+
+  !> E = static_modulus + rate_modulus * (rate / 1 s^-1)**rate_exponent, rate smoothed over `smoothing_time`.
+  subroutine add_rate_dependent_material(this, name, density, poissons_ratio, static_modulus, rate_modulus, &
+                                         rate_exponent, smoothing_time, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: name
+    real(c_double), intent(in) :: density, poissons_ratio, static_modulus, rate_modulus, rate_exponent
+    real(c_double), intent(in) :: smoothing_time
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_add_rate_dependent_material(this%handle%address, c_text(name), density, &
+                                                       poissons_ratio, static_modulus, rate_modulus, &
+                                                       rate_exponent, smoothing_time), stat, errmsg)
+  end subroutine
+
+  !> Elements that only carry a shape; the elastic constants give the contact stiffness.
+  subroutine add_rigid_material(this, name, density, youngs_modulus, poissons_ratio, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: name
+    real(c_double), intent(in) :: density, youngs_modulus, poissons_ratio
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_add_rigid_material(this%handle%address, c_text(name), density, youngs_modulus, &
+                                              poissons_ratio), stat, errmsg)
+  end subroutine
+
+  !> Extrinsic cohesive law: G_I, G_II / G_I (1 if absent), peak shear over strength (1), Coulomb coefficient
+  !> between closed faces (0), exponent of its growth with damage (1).
+  subroutine add_cohesive_law(this, name, strength, fracture_energy, mode_ratio, shear_ratio, friction, &
+                              friction_exponent, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: name
+    real(c_double), intent(in) :: strength, fracture_energy
+    real(c_double), intent(in), optional :: mode_ratio, shear_ratio, friction, friction_exponent
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_add_cohesive_law(this%handle%address, c_text(name), strength, fracture_energy, &
+                                            value_or(1.0_c_double, mode_ratio), &
+                                            value_or(1.0_c_double, shear_ratio), &
+                                            value_or(0.0_c_double, friction), &
+                                            value_or(1.0_c_double, friction_exponent)), stat, errmsg)
+  end subroutine
+
+  !> The first part added is number 1 of the mesh's `parts`. `formulation`: CDFP_ONE_POINT (if absent) or
+  !> CDFP_FULL; `hourglass`: share of the assumed-strain stiffness (1). Without `cohesive_law` it does not
+  !> crack.
+  subroutine add_part(this, name, material, formulation, hourglass, cohesive_law, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: name, material
+    integer(c_int32_t), intent(in), optional :: formulation
+    real(c_double), intent(in), optional :: hourglass
+    character(len=*), intent(in), optional :: cohesive_law
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: kind
+    character(kind=c_char, len=:), allocatable :: law
+
+    kind = CDFP_ONE_POINT
+    if (present(formulation)) kind = formulation
+    law = c_text('')
+    if (present(cohesive_law)) law = c_text(cohesive_law)
+    call report(cdfp_model_add_part(this%handle%address, c_text(name), c_text(material), kind, &
+                                    value_or(1.0_c_double, hourglass), law), stat, errmsg)
+  end subroutine
+
+  !> All elements of a part move as one. `mass` of what is modelled; `inertia` about the centre of mass (from
+  !> the mesh if absent); velocities are zero and directions free if absent.
+  subroutine add_rigid_body(this, part, mass, inertia, velocity, angular_velocity, translation_fixed, &
+                            rotation_fixed, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: part
+    real(c_double), intent(in) :: mass
+    real(c_double), intent(in), optional :: inertia(3, 3), velocity(3), angular_velocity(3)
+    logical, intent(in), optional :: translation_fixed(3), rotation_fixed(3)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_add_rigid_body(this%handle%address, c_text(part), mass, inertia, velocity, &
+                                          angular_velocity, flags(translation_fixed), &
+                                          flags(rotation_fixed)), stat, errmsg)
+  end subroutine
+
+  !> Mirror plane normal to an axis: 1, 2 or 3.
+  subroutine add_symmetry_plane(this, axis, coordinate, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    integer, intent(in) :: axis
+    real(c_double), intent(in) :: coordinate
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_add_symmetry_plane(this%handle%address, int(axis, c_int32_t) - 1_c_int32_t, &
+                                              coordinate), stat, errmsg)
+  end subroutine
+
+  !> One value for each time, linear between them; without `times` one value, for good.
+  subroutine add_prescribed_velocity(this, node_set, directions, values, times, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: node_set
+    logical, intent(in) :: directions(3)
+    real(c_double), contiguous, intent(in) :: values(:)
+    real(c_double), contiguous, intent(in), optional :: times(:)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    if (present(times)) then
+      if (size(times) /= size(values)) then
+        call refuse('add_prescribed_velocity: there must be one value for each time', stat, errmsg)
+        return
+      end if
+    end if
+    call report(cdfp_model_add_prescribed_velocity(this%handle%address, c_text(node_set), flags(directions), &
+                                                   size(values, kind=c_int64_t), times, values), stat, errmsg)
+  end subroutine
+
+  !> Of a deformable part.
+  subroutine add_initial_velocity(this, part, velocity, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: part
+    real(c_double), intent(in) :: velocity(3)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_add_initial_velocity(this%handle%address, c_text(part), velocity), stat, errmsg)
+  end subroutine
+
+  subroutine set_gravity(this, gravity, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    real(c_double), intent(in) :: gravity(3)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_set_gravity(this%handle%address, gravity), stat, errmsg)
+  end subroutine
+
+  !> A facet set that may touch others and itself; without any the scene has no contact.
+  subroutine add_contact_surface(this, facet_set, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: facet_set
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_add_contact_surface(this%handle%address, c_text(facet_set)), stat, errmsg)
+  end subroutine
+
+  !> What is absent stays as it is: see `cdfp_contact_settings` in cdfp/cdfp.h.
+  subroutine set_contact(this, cell_factor, buffer_factor, penalty_factor, friction, depth_limit, edge_edge, &
+                         adaptive, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    real(c_double), intent(in), optional :: cell_factor, buffer_factor, penalty_factor, friction, depth_limit
+    logical, intent(in), optional :: edge_edge, adaptive
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(cdfp_contact_settings) :: settings
+    integer(c_int32_t) :: status
+
+    status = cdfp_model_get_contact(this%handle%address, settings)
+    if (status == CDFP_OK) then
+      settings%cell_factor = value_or(settings%cell_factor, cell_factor)
+      settings%buffer_factor = value_or(settings%buffer_factor, buffer_factor)
+      settings%penalty_factor = value_or(settings%penalty_factor, penalty_factor)
+      settings%friction = value_or(settings%friction, friction)
+      settings%depth_limit = value_or(settings%depth_limit, depth_limit)
+      if (present(edge_edge)) settings%edge_edge = merge(1_c_int32_t, 0_c_int32_t, edge_edge)
+      if (present(adaptive)) settings%adaptive = merge(1_c_int32_t, 0_c_int32_t, adaptive)
+      status = cdfp_model_set_contact(this%handle%address, settings)
+    end if
+    call report(status, stat, errmsg)
+  end subroutine
+
+  !> `fixed_step` 0: automatic, `step_factor` of the stable step. What is absent stays as it is.
+  subroutine set_time(this, end, fixed_step, step_factor, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    real(c_double), intent(in), optional :: end, fixed_step, step_factor
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: status
+
+    status = CDFP_OK
+    if (present(end)) status = cdfp_model_set_end_time(this%handle%address, end)
+    if (present(fixed_step) .and. status == CDFP_OK) &
+      status = cdfp_model_set_fixed_step(this%handle%address, fixed_step)
+    if (present(step_factor) .and. status == CDFP_OK) &
+      status = cdfp_model_set_step_factor(this%handle%address, step_factor)
+    call report(status, stat, errmsg)
+  end subroutine
+
+  !> Steps between rows of the history.
+  subroutine set_history_interval(this, steps, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    integer, intent(in) :: steps
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_set_history_interval(this%handle%address, int(steps, c_int64_t)), stat, errmsg)
+  end subroutine
+
+  !> 0: as many as the machine has. Results are the same bits for any number.
+  subroutine set_threads(this, threads, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    integer, intent(in) :: threads
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_set_threads(this%handle%address, int(threads, c_int32_t)), stat, errmsg)
+  end subroutine
+
+  pure function value_or(default, value) result(chosen)
+    real(c_double), intent(in) :: default
+    real(c_double), intent(in), optional :: value
+    real(c_double) :: chosen
+
+    chosen = default
+    if (present(value)) chosen = value
+  end function
+
+  pure function flags(given) result(values)
+    logical, intent(in), optional :: given(3)
+    integer(c_int32_t) :: values(3)
+
+    values = 0
+    if (present(given)) values = merge(1_c_int32_t, 0_c_int32_t, given)
+  end function
+
+end module cdfp_models

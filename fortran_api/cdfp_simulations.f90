@@ -1,0 +1,435 @@
+!> A simulation: advance it, look at its state, keep its results.
+module cdfp_simulations
+  use, intrinsic :: iso_c_binding
+  use cdfp_c
+  use cdfp_handles
+  use cdfp_models
+  implicit none
+  private
+  public :: cdfp_simulation, cdfp_recorder
+
+  !> Numbers count from 1. Views belong to the simulation and hold until its next step; to be read only.
+  type :: cdfp_simulation
+    type(counted_handle) :: handle
+  contains
+    procedure :: create
+    procedure :: free
+    procedure :: step
+    procedure :: advance
+    procedure :: advance_to
+    procedure :: finished
+    procedure :: time
+    procedure :: step_size
+    procedure :: stable_step
+    procedure :: controlling_element
+    procedure :: step_count
+    procedure :: node_count
+    procedure :: positions
+    procedure :: velocities
+    procedure :: forces
+    procedure :: masses
+    procedure :: body_count
+    procedure :: body
+    procedure :: cohesive_count
+    procedure :: broken_count
+    procedure :: energies
+    procedure :: summary
+    procedure :: first_crack
+    procedure :: warning_count
+    procedure :: warning
+    procedure :: history
+    procedure :: history_column
+  end type
+
+  !> Results in a folder.
+  type :: cdfp_recorder
+    type(counted_handle) :: handle
+  contains
+    procedure :: create => create_recorder
+    procedure :: free => free_recorder
+    procedure :: snapshot
+    procedure :: finish
+  end type
+
+  abstract interface
+    function ask_nodes(simulation, values, nodes) bind(c) result(status)
+      import
+      type(c_ptr), value :: simulation
+      type(c_ptr), intent(out) :: values
+      integer(c_int64_t), intent(out) :: nodes
+      integer(c_int32_t) :: status
+    end function
+  end interface
+
+contains
+
+  !> Checks the model and builds what it needs. The model may be changed, used again or freed afterwards.
+  subroutine create(this, model, stat, errmsg)
+    class(cdfp_simulation), intent(inout) :: this
+    type(cdfp_model), intent(in) :: model
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call this%handle%free()
+    call report(cdfp_simulation_create(model%handle%address, this%handle%address), stat, errmsg)
+  end subroutine
+
+  subroutine free(this)
+    class(cdfp_simulation), intent(inout) :: this
+
+    call this%handle%free()
+  end subroutine
+
+  subroutine step(this, stat, errmsg)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_simulation_step(this%handle%address), stat, errmsg)
+  end subroutine
+
+  !> As many steps as are left, at most `steps`.
+  subroutine advance(this, steps, done, stat, errmsg)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(in) :: steps
+    integer, intent(out), optional :: done
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: count
+
+    count = 0
+    call report(cdfp_simulation_advance(this%handle%address, int(steps, c_int64_t), count), stat, errmsg)
+    if (present(done)) done = int(count)
+  end subroutine
+
+  !> Steps until half a step from `time` or nearer, or the end.
+  subroutine advance_to(this, time, done, stat, errmsg)
+    class(cdfp_simulation), intent(in) :: this
+    real(c_double), intent(in) :: time
+    integer, intent(out), optional :: done
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: count
+
+    count = 0
+    call report(cdfp_simulation_advance_to(this%handle%address, time, count), stat, errmsg)
+    if (present(done)) done = int(count)
+  end subroutine
+
+  function finished(this, stat, errmsg) result(answer)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    logical :: answer
+    integer(c_int32_t) :: flag
+
+    flag = 1
+    call report(cdfp_simulation_finished(this%handle%address, flag), stat, errmsg)
+    answer = flag /= 0
+  end function
+
+  function time(this, stat, errmsg) result(seconds)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    real(c_double) :: seconds
+
+    seconds = 0
+    call report(cdfp_simulation_time(this%handle%address, seconds), stat, errmsg)
+  end function
+
+  function step_size(this, stat, errmsg) result(seconds)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    real(c_double) :: seconds
+
+    seconds = 0
+    call report(cdfp_simulation_step_size(this%handle%address, seconds), stat, errmsg)
+  end function
+
+  function stable_step(this, stat, errmsg) result(seconds)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    real(c_double) :: seconds
+
+    seconds = 0
+    call report(cdfp_simulation_stable_step(this%handle%address, seconds), stat, errmsg)
+  end function
+
+  !> The element that the stable step belongs to, 0 if none.
+  function controlling_element(this, stat, errmsg) result(element)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: element
+
+    element = -1
+    call report(cdfp_simulation_controlling_element(this%handle%address, element), stat, errmsg)
+    element = element + 1_c_int32_t
+  end function
+
+  function step_count(this, stat, errmsg) result(steps)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: steps
+
+    steps = 0
+    call report(cdfp_simulation_step_count(this%handle%address, steps), stat, errmsg)
+  end function
+
+  function node_count(this, stat, errmsg) result(nodes)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: nodes
+
+    nodes = 0
+    call report(cdfp_simulation_node_count(this%handle%address, nodes), stat, errmsg)
+  end function
+
+  !> (3, nodes), m.
+  function positions(this, stat, errmsg) result(x)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    real(c_double), pointer :: x(:, :)
+
+    x => vectors(cdfp_simulation_positions, this, stat, errmsg)
+  end function
+
+  !> (3, nodes), half a step ahead of the positions, m/s.
+  function velocities(this, stat, errmsg) result(v)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    real(c_double), pointer :: v(:, :)
+
+    v => vectors(cdfp_simulation_velocities, this, stat, errmsg)
+  end function
+
+  !> (3, nodes), all nodal forces of the last step, N.
+  function forces(this, stat, errmsg) result(f)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    real(c_double), pointer :: f(:, :)
+
+    f => vectors(cdfp_simulation_forces, this, stat, errmsg)
+  end function
+
+  !> Lumped, kg.
+  function masses(this, stat, errmsg) result(m)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    real(c_double), pointer :: m(:)
+    type(c_ptr) :: data
+    integer(c_int64_t) :: nodes
+    integer(c_int32_t) :: status
+
+    nullify (m)
+    status = cdfp_simulation_masses(this%handle%address, data, nodes)
+    if (status == CDFP_OK) call c_f_pointer(data, m, [nodes])
+    call report(status, stat, errmsg)
+  end function
+
+  function vectors(ask, this, stat, errmsg) result(view)
+    procedure(ask_nodes) :: ask
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    real(c_double), pointer :: view(:, :)
+    type(c_ptr) :: data
+    integer(c_int64_t) :: nodes
+    integer(c_int32_t) :: status
+
+    nullify (view)
+    status = ask(this%handle%address, data, nodes)
+    if (status == CDFP_OK) call c_f_pointer(data, view, [3_c_int64_t, nodes])
+    call report(status, stat, errmsg)
+  end function
+
+  function body_count(this, stat, errmsg) result(bodies)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer :: bodies
+    integer(c_int64_t) :: count
+
+    count = 0
+    call report(cdfp_simulation_body_count(this%handle%address, count), stat, errmsg)
+    bodies = int(count)
+  end function
+
+  !> Rigid bodies in the order of `add_rigid_body`.
+  function body(this, number, stat, errmsg) result(state)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(in) :: number
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(cdfp_body_state) :: state
+
+    call report(cdfp_simulation_body(this%handle%address, int(number, c_int64_t) - 1, state), stat, errmsg)
+  end function
+
+  function cohesive_count(this, stat, errmsg) result(inserted)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: inserted, broken
+
+    inserted = 0
+    call report(cdfp_simulation_cohesive_count(this%handle%address, inserted, broken), stat, errmsg)
+  end function
+
+  function broken_count(this, stat, errmsg) result(broken)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int64_t) :: inserted, broken
+
+    broken = 0
+    call report(cdfp_simulation_cohesive_count(this%handle%address, inserted, broken), stat, errmsg)
+  end function
+
+  function energies(this, stat, errmsg) result(now)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(cdfp_energies) :: now
+
+    call report(cdfp_simulation_energies(this%handle%address, now), stat, errmsg)
+  end function
+
+  function summary(this, stat, errmsg) result(now)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(cdfp_summary) :: now
+    integer(c_int32_t) :: status
+
+    status = cdfp_simulation_summary(this%handle%address, now)
+    if (status == CDFP_OK) now%dt_element = now%dt_element + 1
+    call report(status, stat, errmsg)
+  end function
+
+  !> Of a part that may crack: `time` is NaN and `layer` 0 while it has not; `position` is the centre of the
+  !> facet in the undeformed mesh.
+  subroutine first_crack(this, part, time, layer, position, stat, errmsg)
+    class(cdfp_simulation), intent(in) :: this
+    character(len=*), intent(in) :: part
+    real(c_double), intent(out) :: time
+    integer, intent(out) :: layer
+    real(c_double), intent(out) :: position(3)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: number
+
+    number = -1
+    call report(cdfp_simulation_first_crack(this%handle%address, c_text(part), time, number, position), &
+                stat, errmsg)
+    layer = int(number) + 1
+  end subroutine
+
+  function warning_count(this, stat, errmsg) result(warnings)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer :: warnings
+    integer(c_int64_t) :: count
+
+    count = 0
+    call report(cdfp_simulation_warning_count(this%handle%address, count), stat, errmsg)
+    warnings = int(count)
+  end function
+
+  function warning(this, number, stat, errmsg) result(text)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(in) :: number
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(len=:), allocatable :: text
+    character(kind=c_char) :: buffer(4096)
+    integer(c_int64_t) :: length
+
+    length = 0
+    call report(cdfp_simulation_warning(this%handle%address, int(number, c_int64_t) - 1, buffer, &
+                                        size(buffer, kind=c_int64_t), length), stat, errmsg)
+    text = fortran_text(buffer, length)
+  end function
+
+  !> (columns, rows).
+  function history(this, stat, errmsg) result(values)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    real(c_double), pointer :: values(:, :)
+    type(c_ptr) :: data
+    integer(c_int64_t) :: rows, columns
+    integer(c_int32_t) :: status
+
+    nullify (values)
+    status = cdfp_simulation_history(this%handle%address, data, rows, columns)
+    if (status == CDFP_OK) call c_f_pointer(data, values, [columns, rows])
+    call report(status, stat, errmsg)
+  end function
+
+  !> Name with its unit, such as "time_s".
+  function history_column(this, column, stat, errmsg) result(name)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(in) :: column
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(len=:), allocatable :: name
+    character(kind=c_char) :: buffer(1024)
+    integer(c_int64_t) :: length
+
+    length = 0
+    call report(cdfp_simulation_history_column(this%handle%address, int(column, c_int64_t) - 1, buffer, &
+                                               size(buffer, kind=c_int64_t), length), stat, errmsg)
+    name = fortran_text(buffer, length)
+  end function
+
+  !> Makes the folder and removes from it what an earlier run left.
+  subroutine create_recorder(this, simulation, folder, stat, errmsg)
+    class(cdfp_recorder), intent(inout) :: this
+    type(cdfp_simulation), intent(in) :: simulation
+    character(len=*), intent(in) :: folder
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call this%handle%free()
+    call report(cdfp_recorder_create(simulation%handle%address, c_text(folder), this%handle%address), stat, &
+                errmsg)
+  end subroutine
+
+  subroutine free_recorder(this)
+    class(cdfp_recorder), intent(inout) :: this
+
+    call this%handle%free()
+  end subroutine
+
+  !> The state now as a snapshot for ParaView, and the history so far.
+  subroutine snapshot(this, simulation, stat, errmsg)
+    class(cdfp_recorder), intent(in) :: this
+    type(cdfp_simulation), intent(in) :: simulation
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_recorder_snapshot(this%handle%address, simulation%handle%address), stat, errmsg)
+  end subroutine
+
+  !> history.csv, results.h5, summary.json and the pictures.
+  subroutine finish(this, simulation, stat, errmsg)
+    class(cdfp_recorder), intent(in) :: this
+    type(cdfp_simulation), intent(in) :: simulation
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_recorder_finish(this%handle%address, simulation%handle%address), stat, errmsg)
+  end subroutine
+
+end module cdfp_simulations

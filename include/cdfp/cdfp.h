@@ -1,0 +1,363 @@
+/** @file
+ * The C interface of cdfp, also what the Fortran module `cdfp` stands on.
+ *
+ * Rules of the door
+ * - Every function returns a status: 0 (CDFP_OK) or one of the codes below; `cdfp_last_error` has the text.
+ *   Nothing prints, aborts or throws. When a call fails its results are not set, unless said otherwise.
+ * - Handles are made by `..._create` and given back by `..._free`, which nulls the caller's handle and may be
+ *   called twice. A handle that was freed elsewhere is recognised and refused, never followed.
+ * - Any number of threads may use different handles at once, or ask one handle questions at once. A call that
+ *   changes an object while another one uses it is refused (CDFP_BAD_STATE).
+ * - Views are a pointer and a count. They belong to the handle; each function says for how long they hold.
+ * - Arrays of nodes are (n, 3) row-major, of hexahedra (n, 8), of facets (n, 2): element and local facet.
+ * - Numbers of nodes, elements, facets, parts, layers and axes count from 0; -1 is "none". Units are SI.
+ * - Strings that go in end with a null character. Strings that come out are copied into `text`, cut to
+ *   `capacity - 1` characters and ended with a null; `length` is the length of the whole without the null.
+ *   Ask with a capacity of 0 for the length alone.
+ */
+#ifndef CDFP_CDFP_H
+#define CDFP_CDFP_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- status ------------------------------------------------------------------------------------------- */
+
+enum {
+  CDFP_OK = 0,
+  CDFP_BAD_ARGUMENT = 1, /**< a value, size, name or handle that the caller gave */
+  CDFP_BAD_INPUT = 2,    /**< a file's contents */
+  CDFP_BAD_MESH = 3,     /**< inverted, degenerate or inconsistent elements */
+  CDFP_BAD_STATE = 4,    /**< a call that the object cannot take now */
+  CDFP_DIVERGED = 5,     /**< NaN, inverted element or runaway energy while stepping */
+  CDFP_IO = 6,           /**< a file that cannot be opened, read or written */
+  CDFP_UNAVAILABLE = 7,  /**< an optional part that this build lacks */
+  CDFP_INTERNAL = 8      /**< out of memory, or a fault of cdfp */
+};
+
+/** Text of the last call that failed on this thread; empty if none did. */
+int32_t cdfp_last_error(char* text, int64_t capacity, int64_t* length);
+
+/** Version of the library that runs: major, minor, patch. */
+int32_t cdfp_version(int32_t* major, int32_t* minor, int32_t* patch);
+
+/* ---- handles ------------------------------------------------------------------------------------------ */
+
+typedef struct cdfp_mesh cdfp_mesh;
+typedef struct cdfp_model cdfp_model;
+typedef struct cdfp_simulation cdfp_simulation;
+typedef struct cdfp_recorder cdfp_recorder;
+typedef struct cdfp_topology cdfp_topology;
+
+/** One more owner of the object behind a handle of any kind: `copy` is as good as `handle`, and each of the
+ *  two must be freed. The object goes with its last owner. */
+int32_t cdfp_share(const void* handle, void** copy);
+
+/** What all the `..._free` below do, for a handle of any kind. */
+int32_t cdfp_free(void** handle);
+
+/* ---- meshes that cdfp makes --------------------------------------------------------------------------- */
+
+enum {
+  CDFP_REGULAR = 0,  /**< square grid */
+  CDFP_GRADED = 1,   /**< grid that gets finer towards the impact point */
+  CDFP_O_GRID = 2,   /**< rings around the impact point, turning into the square rim */
+  CDFP_IRREGULAR = 3 /**< unstructured quadrilaterals */
+};
+
+/** Quarter model of a laminated plate on rubber under a rigid impactor. Lengths in m, z upwards, impact point
+ *  at x = y = 0 on the top face. */
+typedef struct cdfp_laminated_plate {
+  double half_width;
+  double lower_glass; /**< thicknesses */
+  double pvb;
+  double upper_glass;
+  double support;
+  int32_t lower_layers;
+  int32_t pvb_layers;
+  int32_t upper_layers;
+  int32_t support_layers;
+  int32_t columns; /**< along one side */
+  int32_t layout;  /**< CDFP_REGULAR, CDFP_GRADED, CDFP_O_GRID or CDFP_IRREGULAR */
+  double impactor_radius;
+  double impactor_shaft; /**< length of the cylinder above the head */
+  double impactor_gap;
+  double impactor_refinement;
+} cdfp_laminated_plate;
+
+/** The geometry of examples/laminated_glass at the paper's full size. */
+int32_t cdfp_laminated_plate_default(cdfp_laminated_plate* plate);
+
+/** Parts: "lower_glass", "pvb", "upper_glass", "support", "impactor". Node sets: "support_bottom",
+ *  "symmetry_x", "symmetry_y". Facet sets: "lower_glass_faces", "upper_glass_faces", "support_top",
+ *  "impactor_head". */
+int32_t cdfp_mesh_create_laminated_plate(const cdfp_laminated_plate* plate, cdfp_mesh** mesh);
+int32_t cdfp_mesh_free(cdfp_mesh** mesh);
+
+/* Views of a mesh hold until it is freed. */
+int32_t cdfp_mesh_coordinates(const cdfp_mesh* mesh, const double** coordinates, int64_t* nodes);
+int32_t cdfp_mesh_hexahedra(const cdfp_mesh* mesh, const int32_t** hexahedra, int64_t* elements);
+int32_t cdfp_mesh_parts(const cdfp_mesh* mesh, const int32_t** parts, int64_t* elements);
+/** Layer through the thickness from the bottom of its part. */
+int32_t cdfp_mesh_layers(const cdfp_mesh* mesh, const int32_t** layers, int64_t* elements);
+int32_t cdfp_mesh_part_count(const cdfp_mesh* mesh, int64_t* count);
+int32_t cdfp_mesh_part_name(const cdfp_mesh* mesh, int64_t part, char* text, int64_t capacity,
+                            int64_t* length);
+int32_t cdfp_mesh_node_set(const cdfp_mesh* mesh, const char* name, const int32_t** nodes, int64_t* count);
+int32_t cdfp_mesh_facet_set(const cdfp_mesh* mesh, const char* name, const int32_t** facets, int64_t* count);
+
+/* ---- model: what to simulate -------------------------------------------------------------------------- */
+
+enum {
+  CDFP_ONE_POINT = 0, /**< mean gradient, one point, assumed-strain hourglass control */
+  CDFP_FULL = 1       /**< 2 x 2 x 2 points, mean volumetric strain (does not lock at nu 0.49) */
+};
+
+/** An empty model. Names tie its entries together; `cdfp_simulation_create` resolves and checks them, so the
+ *  entries may come in any order. All arrays and strings are copied. */
+int32_t cdfp_model_create(cdfp_model** model);
+int32_t cdfp_model_free(cdfp_model** model);
+
+int32_t cdfp_model_set_title(cdfp_model* model, const char* title);
+
+/** `hexahedra`: corners in the order of VTK (bottom 0-1-2-3, top 4-5-6-7). `parts`: part of each element, by
+ *  the order of `cdfp_model_add_part`. `layers` may be NULL. */
+int32_t cdfp_model_set_mesh(cdfp_model* model, int64_t nodes, const double* coordinates, int64_t elements,
+                            const int32_t* hexahedra, const int32_t* parts, const int32_t* layers);
+int32_t cdfp_model_add_node_set(cdfp_model* model, const char* name, int64_t count, const int32_t* nodes);
+int32_t cdfp_model_add_facet_set(cdfp_model* model, const char* name, int64_t count, const int32_t* facets);
+
+int32_t cdfp_model_add_elastic_material(cdfp_model* model, const char* name, double density,
+                                        double youngs_modulus, double poissons_ratio);
+/** E = static_modulus + rate_modulus * (rate / 1 s^-1)^rate_exponent, rate smoothed over `smoothing_time`. */
+int32_t cdfp_model_add_rate_dependent_material(cdfp_model* model, const char* name, double density,
+                                               double poissons_ratio, double static_modulus,
+                                               double rate_modulus, double rate_exponent,
+                                               double smoothing_time);
+int32_t cdfp_model_add_rigid_material(cdfp_model* model, const char* name, double density,
+                                      double youngs_modulus, double poissons_ratio);
+
+/** Extrinsic cohesive law: strength (Pa), G_I (J/m2), G_II / G_I, peak shear over strength, Coulomb
+ *  coefficient between closed faces, exponent of its growth with damage. */
+int32_t cdfp_model_add_cohesive_law(cdfp_model* model, const char* name, double strength,
+                                    double fracture_energy, double mode_ratio, double shear_ratio,
+                                    double friction, double friction_exponent);
+
+/** The first part added is number 0 of the mesh's `parts`. `cohesive_law` may be NULL or empty: does not
+ *  crack. `hourglass`: share of the assumed-strain stiffness (CDFP_ONE_POINT). */
+int32_t cdfp_model_add_part(cdfp_model* model, const char* name, const char* material, int32_t formulation,
+                            double hourglass, const char* cohesive_law);
+
+/** All elements of a part move as one. `inertia` (9, kg m2 about the centre of mass) may be NULL: from the
+ *  mesh; the velocities (3) and the flags (3, not 0: held) may be NULL: zero. */
+int32_t cdfp_model_add_rigid_body(cdfp_model* model, const char* part, double mass, const double* inertia,
+                                  const double* velocity, const double* angular_velocity,
+                                  const int32_t* translation_fixed, const int32_t* rotation_fixed);
+
+int32_t cdfp_model_add_symmetry_plane(cdfp_model* model, int32_t axis, double coordinate);
+
+/** `directions` (3): not 0 where the velocity is prescribed. `times` (count) ascend; NULL with a count of 1:
+ *  `values[0]` for good. */
+int32_t cdfp_model_add_prescribed_velocity(cdfp_model* model, const char* node_set, const int32_t* directions,
+                                           int64_t count, const double* times, const double* values);
+int32_t cdfp_model_add_initial_velocity(cdfp_model* model, const char* part, const double* velocity);
+int32_t cdfp_model_set_gravity(cdfp_model* model, const double* gravity);
+
+/** What `cdfp_model_get_contact` fills and `cdfp_model_set_contact` takes: get, change what differs, set. */
+typedef struct cdfp_contact_settings {
+  double cell_factor;    /**< w1: cell length over mean segment length */
+  double buffer_factor;  /**< w2: buffer over mean segment length */
+  double penalty_factor; /**< zeta in k = zeta K A^2 / V */
+  double friction;       /**< Coulomb coefficient */
+  double depth_limit;    /**< deepest penetration that counts, over the segment's element height */
+  int32_t edge_edge;     /**< 0: node-face pairs only */
+  int32_t adaptive;      /**< 0: a regular search whenever contact entities are new */
+} cdfp_contact_settings;
+
+/** A facet set that may touch others and itself; without any the scene has no contact. */
+int32_t cdfp_model_add_contact_surface(cdfp_model* model, const char* facet_set);
+int32_t cdfp_model_get_contact(const cdfp_model* model, cdfp_contact_settings* settings);
+int32_t cdfp_model_set_contact(cdfp_model* model, const cdfp_contact_settings* settings);
+
+int32_t cdfp_model_set_end_time(cdfp_model* model, double end);
+/** 0: automatic, a share of the stable step that `cdfp_model_set_step_factor` sets. */
+int32_t cdfp_model_set_fixed_step(cdfp_model* model, double fixed_step);
+int32_t cdfp_model_set_step_factor(cdfp_model* model, double step_factor);
+/** Steps between rows of the history. */
+int32_t cdfp_model_set_history_interval(cdfp_model* model, int64_t history_interval);
+/** 0: as many as the machine has. Results are the same bits for any number. */
+int32_t cdfp_model_set_threads(cdfp_model* model, int32_t threads);
+
+/* ---- simulation --------------------------------------------------------------------------------------- */
+
+/** J. `balance` = (all that is stored and dissipated) / (initial + external work). */
+typedef struct cdfp_energies {
+  double kinetic;
+  double strain; /**< without hourglass */
+  double hourglass;
+  double material_dissipated;
+  double cohesive_stored;
+  double cohesive_dissipated;
+  double cohesive_friction;
+  double contact_stored;
+  double contact_friction;
+  double external_work;
+  double initial;
+  double balance;
+} cdfp_energies;
+
+/** Of a rigid body; the force (N) is by contact, on what is modelled. */
+typedef struct cdfp_body_state {
+  double position[3];
+  double velocity[3];
+  double angular_velocity[3];
+  double contact_force[3];
+} cdfp_body_state;
+
+/** As `summary.json`; NaN for what never came about. */
+typedef struct cdfp_summary {
+  int64_t elements;
+  int64_t nodes_initial;
+  int64_t nodes_final;
+  int64_t segments_initial;
+  int64_t segments_final;
+  int64_t steps;
+  int64_t threads;
+  int64_t dt_element;
+  int64_t cohesive_inserted;
+  int64_t cohesive_broken;
+  double simulated_time_s;
+  double dt_s;
+  double dt_stable_s;
+  double wall_s;
+  double peak_rss_mb;
+  double energy_balance_min;
+  double energy_balance_max;
+  double hourglass_over_strain_max;
+  double cohesive_dissipated_over_ga;
+  double first_contact_s;
+  double peak_force_n;
+  double peak_force_time_s;
+  double impactor_rebound_mps;
+  double deepest_penetration_m;
+} cdfp_summary;
+
+/** Checks the model and builds what it needs. The model is copied: it may be changed, used again or freed. */
+int32_t cdfp_simulation_create(const cdfp_model* model, cdfp_simulation** simulation);
+int32_t cdfp_simulation_free(cdfp_simulation** simulation);
+
+/** One step. CDFP_DIVERGED if the state is lost; it stays readable. */
+int32_t cdfp_simulation_step(cdfp_simulation* simulation);
+/** As many steps as are left, at most `steps`; `done` may be NULL. */
+int32_t cdfp_simulation_advance(cdfp_simulation* simulation, int64_t steps, int64_t* done);
+/** Steps until half a step from `time` or nearer, or the end; `done` may be NULL. */
+int32_t cdfp_simulation_advance_to(cdfp_simulation* simulation, double time, int64_t* done);
+
+int32_t cdfp_simulation_finished(const cdfp_simulation* simulation, int32_t* finished);
+int32_t cdfp_simulation_time(const cdfp_simulation* simulation, double* time);
+int32_t cdfp_simulation_step_size(const cdfp_simulation* simulation, double* step_size);
+int32_t cdfp_simulation_stable_step(const cdfp_simulation* simulation, double* stable_step);
+int32_t cdfp_simulation_controlling_element(const cdfp_simulation* simulation, int32_t* element);
+int32_t cdfp_simulation_step_count(const cdfp_simulation* simulation, int64_t* steps);
+int32_t cdfp_simulation_node_count(const cdfp_simulation* simulation, int64_t* nodes);
+
+/* Views of the nodal state, (n, 3) or (n), in place: they hold until the next step. */
+int32_t cdfp_simulation_positions(const cdfp_simulation* simulation, const double** positions,
+                                  int64_t* nodes);
+/** Half a step ahead of the positions. */
+int32_t cdfp_simulation_velocities(const cdfp_simulation* simulation, const double** velocities,
+                                   int64_t* nodes);
+/** All nodal forces of the last step. */
+int32_t cdfp_simulation_forces(const cdfp_simulation* simulation, const double** forces, int64_t* nodes);
+int32_t cdfp_simulation_masses(const cdfp_simulation* simulation, const double** masses, int64_t* nodes);
+
+int32_t cdfp_simulation_body_count(const cdfp_simulation* simulation, int64_t* bodies);
+/** Bodies in the order of `cdfp_model_add_rigid_body`. */
+int32_t cdfp_simulation_body(const cdfp_simulation* simulation, int64_t body, cdfp_body_state* state);
+
+int32_t cdfp_simulation_cohesive_count(const cdfp_simulation* simulation, int64_t* inserted, int64_t* broken);
+int32_t cdfp_simulation_energies(const cdfp_simulation* simulation, cdfp_energies* energies);
+int32_t cdfp_simulation_summary(const cdfp_simulation* simulation, cdfp_summary* summary);
+/** Of a part that may crack: `time` is NaN and `layer` -1 while it has not; `position` (3) is the centre of
+ *  the facet in the undeformed mesh. */
+int32_t cdfp_simulation_first_crack(const cdfp_simulation* simulation, const char* part, double* time,
+                                    int32_t* layer, double* position);
+int32_t cdfp_simulation_warning_count(const cdfp_simulation* simulation, int64_t* count);
+int32_t cdfp_simulation_warning(const cdfp_simulation* simulation, int64_t warning, char* text,
+                                int64_t capacity, int64_t* length);
+
+/** Rows of the history one after the other, `columns` values each; holds until the next step. */
+int32_t cdfp_simulation_history(const cdfp_simulation* simulation, const double** values, int64_t* rows,
+                                int64_t* columns);
+/** Name with its unit, such as "time_s". */
+int32_t cdfp_simulation_history_column(const cdfp_simulation* simulation, int64_t column, char* text,
+                                       int64_t capacity, int64_t* length);
+
+/* ---- results in a folder ------------------------------------------------------------------------------ */
+
+/** Makes the folder and removes from it what an earlier run left. */
+int32_t cdfp_recorder_create(const cdfp_simulation* simulation, const char* folder, cdfp_recorder** recorder);
+int32_t cdfp_recorder_free(cdfp_recorder** recorder);
+/** The state now as a snapshot for ParaView, and the history so far. */
+int32_t cdfp_recorder_snapshot(cdfp_recorder* recorder, const cdfp_simulation* simulation);
+/** history.csv, results.h5, summary.json and the pictures. */
+int32_t cdfp_recorder_finish(cdfp_recorder* recorder, const cdfp_simulation* simulation);
+
+/* ---- TopS on the caller's connectivity ---------------------------------------------------------------- */
+
+enum {
+  CDFP_HEXAHEDRON = 0,
+  CDFP_TETRAHEDRON = 1,
+  CDFP_WEDGE = 2,
+  CDFP_PYRAMID = 3,
+  CDFP_COHESIVE_QUADRILATERAL = 4, /**< 8 nodes: upper face 0-1-2-3, lower face 4-5-6-7 */
+  CDFP_COHESIVE_TRIANGLE = 5       /**< 6 nodes: upper face 0-1-2, lower face 3-4-5 */
+};
+
+/** `types` (elements) may be NULL: all hexahedra. `corners`: how many numbers `connectivity` holds, the
+ *  corners of all elements one after the other. */
+int32_t cdfp_topology_create(int64_t nodes, int64_t elements, const int32_t* types, int64_t corners,
+                             const int32_t* connectivity, cdfp_topology** topology);
+int32_t cdfp_topology_free(cdfp_topology** topology);
+
+int32_t cdfp_topology_node_count(const cdfp_topology* topology, int64_t* nodes);
+/** `elements`: bulk and cohesive; the bulk elements come first. */
+int32_t cdfp_topology_element_count(const cdfp_topology* topology, int64_t* elements, int64_t* bulk);
+int32_t cdfp_topology_element_type(const cdfp_topology* topology, int32_t element, int32_t* type);
+/** Corners of an element now; the view holds until the next insertion. */
+int32_t cdfp_topology_element_nodes(const cdfp_topology* topology, int32_t element, const int32_t** nodes,
+                                    int64_t* count);
+int32_t cdfp_topology_facet_count(const cdfp_topology* topology, int32_t element, int64_t* facets);
+/** The facet on the other side: of a cohesive element if one stands between, -1 and -1 at the boundary.
+ *  Facet 0 of a cohesive element is its upper face, facet 1 its lower face. */
+int32_t cdfp_topology_mate(const cdfp_topology* topology, int32_t element, int32_t facet,
+                           int32_t* mate_element, int32_t* mate_facet);
+/** `nodes` has room for 4; outward order. */
+int32_t cdfp_topology_facet_nodes(const cdfp_topology* topology, int32_t element, int32_t facet,
+                                  int32_t* nodes, int64_t* count);
+/** Pairs of element and local edge around an edge, in cyclic order. `uses` has room for `capacity` pairs;
+ *  `count` is that of all pairs, those included for which there was no room. */
+int32_t cdfp_topology_elements_around_edge(const cdfp_topology* topology, int32_t element, int32_t edge,
+                                           int64_t capacity, int32_t* uses, int64_t* count);
+/** Pairs of element and corner around a node, ascending; room and count as above. */
+int32_t cdfp_topology_elements_around_node(const cdfp_topology* topology, int32_t node, int64_t capacity,
+                                           int32_t* uses, int64_t* count);
+
+/** Inserts a cohesive element at an inner facet between two bulk elements. `new_nodes`: pairs of new node
+ *  and the node that it copies, in the order of their numbers. `renumbered`: element, corner, old node, new
+ *  node for every corner that changed. Both views hold until the next insertion. */
+int32_t cdfp_topology_insert_cohesive(cdfp_topology* topology, int32_t element, int32_t facet,
+                                      int32_t* cohesive_element, const int32_t** new_nodes,
+                                      int64_t* new_node_count, const int32_t** renumbered,
+                                      int64_t* renumbered_count);
+/** The first relation that does not hold; length 0 if all do. */
+int32_t cdfp_topology_check(const cdfp_topology* topology, char* text, int64_t capacity, int64_t* length);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
