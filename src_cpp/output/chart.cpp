@@ -153,7 +153,7 @@ void draw_chart(Canvas& canvas, const Box& box, const Chart& chart) {
     canvas.ring(at, 7, spot.colour, 3.5);
     canvas.text({at.x + 18, at.y - 2}, spot.text, {.size = 22, .colour = spot.colour});
   }
-  if (chart.legend) draw_legend(canvas, chart, {inner.right() + 40, inner.y + 24});
+  if (chart.legend && chart.series.size() > 1) draw_legend(canvas, chart, {inner.right() + 40, inner.y + 24});
 }
 
 }  // namespace cdfp

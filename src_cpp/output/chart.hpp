@@ -43,7 +43,7 @@ struct Chart {
   std::vector<Spot> spots;
   std::vector<Band> bands;
   double y_low = 0, y_high = 0;  ///< shown at least
-  bool legend = false;
+  bool legend = false;           ///< leaves room beside the chart; drawn if there are two series or more
 };
 
 /// Distance from a chart's left edge to its axis, so that charts one below the other line up.

@@ -6,14 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "output/plane_view.hpp"
+#include "output/crack_drawing.hpp"
 
 namespace cdfp {
-
-struct CrackPanel {
-  double time = 0;  ///< s
-  std::vector<SeenFacet> facets;
-};
 
 struct CrackPicture {
   std::string part;            ///< as the title names it
@@ -23,6 +18,7 @@ struct CrackPicture {
   std::vector<CrackPanel> panels;
 };
 
+/// Draws nothing without an outline or panels.
 void draw_crack_picture(const std::filesystem::path& path, const CrackPicture& picture);
 
 }  // namespace cdfp

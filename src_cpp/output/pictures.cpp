@@ -1,7 +1,8 @@
 #include "output/pictures.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <span>
+#include <string_view>
 
 #include "output/history_pictures.hpp"
 
@@ -26,25 +27,38 @@ std::string file_name(std::string part) {
   return "cracks_" + part + ".png";
 }
 
-/// Below the lowest nodes of the part "impactor".
-std::optional<Point> impact_point(const Frame& frame) {
-  const Index part = part_number(frame, "impactor");
-  double lowest = 0, count = 0;
-  Point sum;
-  for (std::size_t i = 0; part != kNone && i < frame.hexahedra.size(); ++i) {
-    if (frame.parts[i / 8] != part) continue;
+/// Below the lowest nodes of the part "impactor", on the highest of the parts that crack.
+std::optional<std::array<double, 3>> impact_point(const Frame& frame, const std::vector<Index>& crack_parts) {
+  const Index impactor = part_number(frame, "impactor");
+  double lowest = 0, count = 0, x = 0, y = 0, top = 0;
+  bool any = false;
+  for (std::size_t i = 0; impactor != kNone && i < frame.hexahedra.size(); ++i) {
     const double* position = &frame.positions[3 * static_cast<std::size_t>(frame.hexahedra[i])];
+    const Index part = frame.parts[i / 8];
+    if (std::find(crack_parts.begin(), crack_parts.end(), part) != crack_parts.end()) {
+      top = any ? std::max(top, position[2]) : position[2];
+      any = true;
+    }
+    if (part != impactor) continue;
     if (count == 0 || position[2] < lowest - 1e-9) {
       lowest = position[2];
-      count = 0;
-      sum = {};
+      count = x = y = 0;
     }
     if (position[2] > lowest + 1e-9) continue;
-    sum = {sum.x + position[0], sum.y + position[1]};
+    x += position[0];
+    y += position[1];
     ++count;
   }
   if (count == 0) return std::nullopt;
-  return Point{sum.x / count, sum.y / count};
+  return std::array<double, 3>{x / count, y / count, top};
+}
+
+/// Every second panel goes when many are there, so that a run of many snapshots needs bounded memory.
+void add_panel(std::vector<CrackPanel>& panels, CrackPanel panel) {
+  if (panels.size() == kept_panels)
+    for (std::size_t k = 0; k < kept_panels / 2; ++k)
+      panels.erase(panels.begin() + static_cast<std::ptrdiff_t>(k));
+  panels.push_back(std::move(panel));
 }
 
 }  // namespace
@@ -60,33 +74,60 @@ Pictures::Pictures(std::filesystem::path folder, std::vector<std::string> crack_
     : folder_(std::move(folder)), parts_(std::move(crack_parts)) {}
 
 void Pictures::begin(const Frame& frame) {
-  for (const std::string& part : parts_) {
-    const Index number = part_number(frame, part);
+  begun_ = true;
+  for (const std::string& part : parts_) numbers_.push_back(part_number(frame, part));
+  const auto impact = impact_point(frame, numbers_);
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
     CrackPicture picture;
-    picture.part = spoken(part);
+    picture.part = spoken(parts_[i]);
     picture.copies = copies(frame.symmetry_planes, from_above);
-    picture.impact = impact_point(frame);
-    if (number != kNone) picture.outline = part_outline(frame, number, undeformed_.positions(), from_above);
-    numbers_.push_back(number);
+    if (impact) picture.impact = from_above.project(impact->data());
+    if (numbers_[i] != kNone)
+      picture.outline = part_outline(frame, numbers_[i], undeformed_.positions(), from_above);
     cracks_.push_back(std::move(picture));
   }
+  begin_section(frame, impact);
+}
+
+void Pictures::begin_section(const Frame& frame, const std::optional<std::array<double, 3>>& impact) {
+  section_.copies = copies(frame.symmetry_planes, from_the_front);
+  if (impact) section_.impact = from_the_front.project(impact->data());
+  std::vector<Point> cracking;
+  for (Index part = 0; part < static_cast<Index>(frame.part_names.size()); ++part) {
+    if (frame.part_names[static_cast<std::size_t>(part)] == "impactor") continue;
+    const bool cracks = std::find(numbers_.begin(), numbers_.end(), part) != numbers_.end();
+    section_.bodies.push_back({part_outline(frame, part, undeformed_.positions(), from_the_front), cracks});
+    const auto& outline = section_.bodies.back().outline;
+    if (cracks) cracking.insert(cracking.end(), outline.begin(), outline.end());
+  }
+  if (cracking.empty()) return;
+  // Twelve times as wide as high shows the whole thickness well.
+  section_.shown = extent_of(cracking);
+  const double middle =
+      section_.impact ? section_.impact->x : 0.5 * (section_.shown.low.x + section_.shown.high.x);
+  const double reach = 6 * section_.shown.height();
+  section_.shown.low.x = std::max(section_.shown.low.x, middle - reach);
+  section_.shown.high.x = std::min(section_.shown.high.x, middle + reach);
+  section_depth_ = impact ? (*impact)[1] : 0;
 }
 
 void Pictures::keep(const Frame& frame) {
   undeformed_.update(frame);
-  if (cracks_.empty()) begin(frame);
+  if (!begun_) begin(frame);
   if (frame.time <= 0) return;
+  const std::span<const double> positions = undeformed_.positions();
+  CrackPanel section{frame.time, {}};
   for (std::size_t i = 0; i < cracks_.size(); ++i) {
-    std::vector<CrackPanel>& panels = cracks_[i].panels;
-    // Every second panel goes when many are there, so that a run of many snapshots needs bounded memory.
-    if (panels.size() == kept_panels)
-      for (std::size_t k = 0; k < kept_panels / 2; ++k)
-        panels.erase(panels.begin() + static_cast<std::ptrdiff_t>(k));
     CrackPanel panel{frame.time, {}};
-    for (const CrackFacet& facet : frame.cracks)
-      if (facet.part == numbers_[i]) panel.facets.push_back(see(facet, undeformed_.positions(), from_above));
-    panels.push_back(std::move(panel));
+    for (const CrackFacet& facet : frame.cracks) {
+      if (facet.part != numbers_[i]) continue;
+      panel.facets.push_back(see(facet, positions, from_above));
+      if (const auto line = cut(facet, positions, from_the_front, section_depth_))
+        section.facets.push_back(*line);
+    }
+    add_panel(cracks_[i].panels, std::move(panel));
   }
+  add_panel(section_.panels, std::move(section));
 }
 
 void Pictures::draw(const History& history, const Summary& summary) const {
@@ -95,6 +136,9 @@ void Pictures::draw(const History& history, const Summary& summary) const {
     picture.panels = choose_panels(picture.panels, shown_panels);
     draw_crack_picture(folder_ / file_name(parts_[i]), picture);
   }
+  SectionPicture section = section_;
+  section.panels = choose_panels(section.panels, shown_panels);
+  draw_section_picture(folder_ / "section.png", section);
   draw_history(folder_, history, summary);
 }
 

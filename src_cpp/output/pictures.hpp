@@ -1,12 +1,15 @@
 /// The pictures of a run: crack patterns, force, energies.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cdfp/results.hpp"
 #include "output/crack_picture.hpp"
+#include "output/section_picture.hpp"
 #include "output/undeformed.hpp"
 
 namespace cdfp {
@@ -20,11 +23,15 @@ class Pictures {
 
  private:
   void begin(const Frame& frame);
+  void begin_section(const Frame& frame, const std::optional<std::array<double, 3>>& impact);
 
   std::filesystem::path folder_;
   std::vector<std::string> parts_;
   std::vector<Index> numbers_;  ///< of `parts_` in the frames
+  bool begun_ = false;
+  double section_depth_ = 0;  ///< m, y of the section's plane
   std::vector<CrackPicture> cracks_;
+  SectionPicture section_;
   UndeformedNodes undeformed_;
 };
 

@@ -13,6 +13,15 @@ double distance(Point a, Point b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
+/// The two points of a polygon that are farthest apart.
+std::pair<Point, Point> longest_chord(std::span<const Point> points) {
+  std::pair<Point, Point> ends{points[0], points[0]};
+  for (std::size_t a = 0; a < points.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      if (distance(points[a], points[b]) > distance(ends.first, ends.second)) ends = {points[b], points[a]};
+  return ends;
+}
+
 }  // namespace
 
 SeenFacet see(const CrackFacet& facet, std::span<const double> positions, const View& view) {
@@ -26,15 +35,47 @@ SeenFacet see(const CrackFacet& facet, std::span<const double> positions, const 
   const auto& p = seen.corners;
   double area = 0.5 * cross(p[0], p[1], p[2]);
   if (facet.corners == 4) area += 0.5 * cross(p[0], p[2], p[3]);
-  std::pair<Point, Point> ends{p[0], p[0]};
-  for (int a = 0; a < facet.corners; ++a)
-    for (int b = 0; b < a; ++b)
-      if (distance(p[a], p[b]) > distance(ends.first, ends.second)) ends = {p[b], p[a]};
+  const auto ends = longest_chord({p.data(), static_cast<std::size_t>(facet.corners)});
   const double length = distance(ends.first, ends.second);
   if (std::abs(area) < sliver * length * length) {
     seen.count = 2;
     seen.corners = {ends.first, ends.second};
   }
+  return seen;
+}
+
+std::optional<SeenFacet> cut(const CrackFacet& facet, std::span<const double> positions, const View& view,
+                             double depth) {
+  const auto corners = static_cast<std::size_t>(facet.corners);
+  std::array<const double*, 4> at{};
+  for (std::size_t c = 0; c < corners; ++c) at[c] = &positions[3 * static_cast<std::size_t>(facet.upper[c])];
+  const auto above = [&](std::size_t c) { return at[c][view.depth()] - depth; };
+  double size = 0;
+  for (std::size_t c = 1; c < corners; ++c)
+    for (int i = 0; i < 3; ++i) size = std::max(size, std::abs(at[c][i] - at[0][i]));
+  const double tolerance = 1e-6 * size;
+
+  std::vector<Point> met;
+  std::size_t in_plane = 0;
+  for (std::size_t c = 0; c < corners; ++c) {
+    const std::size_t next = (c + 1) % corners;
+    const double here = above(c), there = above(next);
+    const Point p = view.project(at[c]), q = view.project(at[next]);
+    if (std::abs(here) <= tolerance) {
+      met.push_back(p);
+      ++in_plane;
+    } else if (std::abs(there) > tolerance && (here < 0) != (there < 0)) {
+      const double share = here / (here - there);
+      met.push_back({p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)});
+    }
+  }
+  if (in_plane == corners) return see(facet, positions, view);
+  if (met.size() < 2) return std::nullopt;
+  const auto ends = longest_chord(met);
+  SeenFacet seen;
+  seen.count = 2;
+  seen.damage = static_cast<float>(facet.damage);
+  seen.corners = {ends.first, ends.second};
   return seen;
 }
 

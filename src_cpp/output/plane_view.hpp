@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace cdfp {
 /// The two axes that span the picture.
 struct View {
   int across = 0, up = 1;
+  int depth() const { return 3 - across - up; }
   Point project(const double* position) const { return {position[across], position[up]}; }
 };
 
@@ -27,6 +29,11 @@ struct SeenFacet {
 };
 
 SeenFacet see(const CrackFacet& facet, std::span<const double> positions, const View& view);
+
+/// What a plane at this depth of the view meets of a face: a line, the whole face if it lies in the plane,
+/// nothing if it touches in no more than a point.
+std::optional<SeenFacet> cut(const CrackFacet& facet, std::span<const double> positions, const View& view,
+                             double depth);
 
 /// One copy of what is modelled: `p -> factor * p + shift` in each of the view's axes.
 struct Copy {

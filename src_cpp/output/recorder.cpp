@@ -27,7 +27,8 @@ void remove_earlier(const std::filesystem::path& folder) {
     if (entry.path().extension() == ".vtu") earlier.push_back(entry.path());
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string stem = entry.path().stem().string(), kind = entry.path().extension().string();
-    const bool picture = stem == "force" || stem == "energy" || stem.starts_with("cracks_");
+    const bool picture =
+        stem == "force" || stem == "energy" || stem == "section" || stem.starts_with("cracks_");
     if (picture && (kind == ".png" || kind == ".svg")) earlier.push_back(entry.path());
   }
   for (const std::filesystem::path& path : earlier) std::filesystem::remove(path, ignored);

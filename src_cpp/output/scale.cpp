@@ -29,6 +29,12 @@ Ticks round_ticks(double low, double high, int count) {
   return ticks;
 }
 
+double rounded_down(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  const double share = value / power * (1 + 1e-12);
+  return power * (share >= 5 ? 5 : share >= 2 ? 2 : 1);
+}
+
 std::string label(double value, int decimals) {
   char text[64];
   std::snprintf(text, sizeof text, "%.*f", decimals, std::abs(value));

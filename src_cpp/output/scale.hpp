@@ -22,6 +22,9 @@ struct Ticks {
 /// Multiples of 1, 2 or 5 times a power of ten inside [low, high], about `count` of them.
 Ticks round_ticks(double low, double high, int count);
 
+/// The largest of 1, 2 or 5 times a power of ten that is not above a positive value.
+double rounded_down(double value);
+
 /// Fixed decimals, a true minus sign.
 std::string label(double value, int decimals);
 

@@ -114,7 +114,7 @@ TEST(Pictures, a_run_leaves_pictures_in_which_the_cracks_grow) {
   Pictures pictures(folder.path(), {"upper_glass", "lower_glass", "mirror"});
   for (const double time : {0.0, 33e-6, 60e-6, 120e-6}) pictures.keep(sample::state({}, time).frame);
   pictures.draw(sample::history(200, 600e-6), sample::summary());
-  for (const char* name : {"cracks_upper.png", "cracks_lower.png", "force.png", "energy.png"})
+  for (const char* name : {"cracks_upper.png", "cracks_lower.png", "section.png", "force.png", "energy.png"})
     EXPECT_EQ(Picture(folder / name).width, 2000) << name;
   EXPECT_FALSE(std::filesystem::exists(folder / "cracks_mirror.png"));
   for (const char* name : {"force.svg", "energy.svg"}) {
@@ -210,6 +210,32 @@ TEST(PlaneView, upright_faces_are_lines_and_flat_ones_areas) {
   EXPECT_TRUE(see(flat, positions, from_the_front).edge_on());
 }
 
+// Against the section computed edge by edge of the plane z = a x + b y through the unit square, cut at y = d.
+TEST(PlaneView, a_section_meets_faces_where_the_plane_does) {
+  const std::vector<double> positions = {0, 0, 0, 1, 0, 0.5, 1, 1, 0.7, 0, 1, 0.2};
+  CrackFacet facet;
+  facet.upper = facet.lower = {0, 1, 2, 3};
+  facet.damage = 0.5;
+  for (const double depth : {0.0, 0.25, 1.0}) {
+    const auto line = cut(facet, positions, from_the_front, depth);
+    ASSERT_TRUE(line.has_value()) << depth;
+    ASSERT_TRUE(line->edge_on());
+    EXPECT_EQ(line->damage, 0.5f);
+    Point a = line->corners[0], b = line->corners[1];
+    if (a.x > b.x) std::swap(a, b);
+    EXPECT_NEAR(a.x, 0, 1e-14);
+    EXPECT_NEAR(b.x, 1, 1e-14);
+    EXPECT_NEAR(a.y, 0.2 * depth, 1e-14);
+    EXPECT_NEAR(b.y, 0.5 + 0.2 * depth, 1e-14);
+  }
+  EXPECT_FALSE(cut(facet, positions, from_the_front, -0.01).has_value());
+  EXPECT_FALSE(cut(facet, positions, from_the_front, 1.01).has_value());
+  const std::vector<double> upright = {0, 0.5, 0, 1, 0.5, 0, 1, 0.5, 1, 0, 0.5, 1};
+  EXPECT_EQ(cut(facet, upright, from_the_front, 0.5)->count, 4);
+  const std::vector<double> touching = {0, 0, 0, 1, 1, 0, 0, 2, 0, -1, 1, 0};
+  EXPECT_FALSE(cut(facet, touching, from_the_front, 0).has_value());
+}
+
 TEST(PlaneView, mirror_images_fill_the_whole) {
   const auto four = copies({{0, 1.0}, {1, -2.0}, {2, 7.0}}, from_above);
   ASSERT_EQ(four.size(), 4u);
@@ -275,6 +301,10 @@ TEST(Scale, ticks_are_round_few_and_inside) {
 }
 
 TEST(Scale, units_and_labels) {
+  EXPECT_DOUBLE_EQ(rounded_down(0.078), 0.05);
+  EXPECT_DOUBLE_EQ(rounded_down(0.02), 0.02);
+  EXPECT_DOUBLE_EQ(rounded_down(999), 500);
+  EXPECT_DOUBLE_EQ(rounded_down(1000), 1000);
   EXPECT_EQ(readable_unit(600e-6, "s").name, "µs");
   EXPECT_DOUBLE_EQ(readable_unit(600e-6, "s").size, 1e-6);
   EXPECT_EQ(readable_unit(1000, "N").name, "kN");
