@@ -60,13 +60,24 @@ struct Insertion {
   FacetUse lower;  ///< facet of the bulk element with the smaller number; the cohesive normal leaves it
   FacetUse upper;
   std::vector<NewNode> new_nodes;      ///< in the order of their numbers
-  std::vector<Renumbered> renumbered;  ///< corners that now name a new node
+  std::vector<Renumbered> renumbered;  ///< corners, of elements that stood before, that now name a new node
+  /// Edge i of `lower` (from corner i of its outward order to the next) came apart: the two elements are no
+  /// longer connected around it without crossing a cohesive element.
+  std::array<bool, 4> split_edges{};
 };
 
+/// A facet, edge or vertex has as many uses as elements; it is anchored at the use by its lowest-numbered
+/// bulk element, which names it once. The two faces of a cohesive element are two facets. The elements of one
+/// edge are those connected around it without crossing a cohesive element; a vertex is a node.
+///
+/// Uses stay valid for good, since elements keep their numbers; spans hold until the next insertion. Queries
+/// expect uses and nodes that exist, allocate nothing but what the caller's vector needs (nodes with more
+/// than 32 elements excepted) and may run in several threads at once.
 class Topology {
  public:
   /// `connectivity` holds the corners of all elements, one after the other, as in `Mesh`.
-  /// Throws `Error(bad_mesh)` for node numbers out of range and facets shared by more than two elements.
+  /// Throws `Error(bad_mesh)` for node numbers out of range, an element that names a node twice, types that
+  /// are not bulk types, facets shared by more than two elements or by two in the same sense.
   Topology(Index node_count, std::span<const ElementType> types, std::span<const Index> connectivity);
   ~Topology();
   Topology(Topology&&) noexcept;
@@ -78,20 +89,69 @@ class Topology {
 
   ElementType type(Index element) const;
   std::span<const Index> nodes(Index element) const;
+  Index facet_count(Index element) const;
+  Index edge_count(Index element) const;
+  FacetNodes facet_nodes(FacetUse use) const;
+  std::array<Index, 2> edge_nodes(EdgeUse use) const;
+  /// The edge from corner `side` of a facet's outward order to the next.
+  EdgeUse facet_edge(FacetUse use, Index side) const;
 
   /// The facet on the other side (`f[E]`): of a cohesive element if one stands between, `{kNone, kNone}` at
   /// the boundary. A cohesive element's facet 0 is its upper face, facet 1 its lower face.
   FacetUse mate(FacetUse use) const;
-  FacetNodes facet_nodes(FacetUse use) const;
-  Index facet_count(Index element) const;
 
-  /// Elements around an edge in cyclic order (`e[E]`), starting with the given use; an open cycle starts at
-  /// one of its ends. Cohesive elements are part of the cycle.
+  /// Elements around an edge in cyclic order (`e[E]`), starting with the given use and turning right-handed
+  /// about its direction; an open cycle starts at its first element instead. Cohesive elements are part of
+  /// the cycle, by the edge of the face that comes first.
   void elements_around(EdgeUse use, std::vector<EdgeUse>& out) const;
-  /// Elements around a node (`N{E}`), in ascending order of element numbers.
-  void elements_around_node(Index node, std::vector<VertexUse>& out) const;
+  /// Facets around an edge (anchored), in the order in which `elements_around` leaves the elements by them;
+  /// those of an open cycle start with the boundary facet of its first element.
+  void facets_around(EdgeUse use, std::vector<FacetUse>& out) const;
+  /// Elements around a vertex as the uncut mesh had it, starting with the given use: all that facets connect
+  /// with it, through cohesive elements too.
+  void elements_around(VertexUse use, std::vector<VertexUse>& out) const;
 
-  /// Inserts a cohesive element at an inner facet between two bulk elements. `report` is overwritten (its
+  /// Elements around a node (`N{E}`), in ascending order of element numbers; a cohesive element appears once
+  /// for each of its corners that names the node.
+  void elements_around_node(Index node, std::vector<VertexUse>& out) const;
+  /// Facets (anchored) around a node, in ascending order.
+  void facets_around_node(Index node, std::vector<FacetUse>& out) const;
+  /// Edges (anchored) around a node, in ascending order.
+  void edges_around_node(Index node, std::vector<EdgeUse>& out) const;
+
+  FacetUse anchor(FacetUse use) const;
+  EdgeUse anchor(EdgeUse use) const;
+  /// `{kNone, kNone}` for a node without elements.
+  VertexUse anchor(Index node) const;
+
+  /// The boundary of the mesh as it was given; crack faces do not count.
+  bool is_boundary(FacetUse use) const;
+  bool is_boundary(EdgeUse use) const;
+  bool is_boundary_node(Index node) const;
+
+  /// All facets, edges and vertices, each once by its anchored use, in ascending order of elements (vertices:
+  /// of nodes).
+  template <class Visit>
+  void for_each_facet(Visit&& visit) const {
+    for (FacetUse use = next_facet({0, kNone}); use.element != kNone; use = next_facet(use)) visit(use);
+  }
+  template <class Visit>
+  void for_each_edge(Visit&& visit) const {
+    for (EdgeUse use = next_edge({0, kNone}); use.element != kNone; use = next_edge(use)) visit(use);
+  }
+  template <class Visit>
+  void for_each_vertex(Visit&& visit) const {
+    for (Index node = 0; node < node_count(); ++node) {
+      const VertexUse use = anchor(node);
+      if (use.element != kNone) visit(use);
+    }
+  }
+  /// The next anchored use, `{kNone, kNone}` after the last.
+  FacetUse next_facet(FacetUse use) const;
+  EdgeUse next_edge(EdgeUse use) const;
+
+  /// Inserts a cohesive element at an inner facet between two bulk elements; nodes whose elements come apart
+  /// are doubled, and the part with the lowest element number keeps the old one. `report` is overwritten (its
   /// storage is reused). Throws `Error(bad_argument)` at a boundary facet, a facet that is cohesive already
   /// and numbers out of range; nothing is changed then.
   void insert_cohesive(FacetUse use, Insertion& report);

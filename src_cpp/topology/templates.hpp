@@ -40,7 +40,7 @@ struct ElementTemplate {
   std::array<std::array<Byte, kMaxAtCorner>, kMaxCorners> corner_facets{};
   std::array<std::array<Byte, kMaxAtCorner>, kMaxCorners> corner_edges{};
 
-  constexpr std::span<const Byte> facet(std::size_t f) const {
+  constexpr std::span<const Byte> facet(int f) const {
     return {facets[f].data(), static_cast<std::size_t>(facet_size[f])};
   }
 };
