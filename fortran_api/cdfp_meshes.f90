@@ -13,7 +13,7 @@ module cdfp_meshes
   contains
     procedure :: create_laminated_plate
     procedure :: free
-    procedure :: coordinates
+    procedure :: get_coordinates
     procedure :: get_hexahedra
     procedure :: get_parts
     procedure :: get_layers
@@ -48,21 +48,24 @@ contains
     call this%handle%free()
   end subroutine
 
-  !> View of the mesh's own array, (3, nodes): holds until the mesh is freed. To be read only.
-  function coordinates(this, stat, errmsg) result(x)
+  !> (3, nodes), m.
+  subroutine get_coordinates(this, coordinates, stat, errmsg)
     class(cdfp_mesh), intent(in) :: this
+    real(c_double), allocatable, intent(out) :: coordinates(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
-    real(c_double), pointer :: x(:, :)
     type(c_ptr) :: data
     integer(c_int64_t) :: nodes
     integer(c_int32_t) :: status
+    real(c_double), pointer :: view(:, :)
 
-    nullify (x)
     status = cdfp_mesh_coordinates(this%handle%address, data, nodes)
-    if (status == CDFP_OK) call c_f_pointer(data, x, [3_c_int64_t, nodes])
+    if (status == CDFP_OK) then
+      call c_f_pointer(data, view, [3_c_int64_t, nodes])
+      coordinates = view
+    end if
     call report(status, stat, errmsg)
-  end function
+  end subroutine
 
   !> (8, elements).
   subroutine get_hexahedra(this, hexahedra, stat, errmsg)
