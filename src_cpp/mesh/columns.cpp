@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "cdfp/error.hpp"
+#include "mesh/irregular_columns.hpp"
+#include "mesh/o_grid_columns.hpp"
 
 namespace cdfp {
 
@@ -37,8 +39,9 @@ QuadMesh plate_columns(PlateColumns layout, Index columns) {
     case PlateColumns::graded:
       return graded_grid(columns);
     case PlateColumns::o_grid:
+      return o_grid_columns(columns * columns);
     case PlateColumns::irregular:
-      break;
+      return irregular_columns(columns * columns);
   }
   throw Error(Status::bad_argument, "unknown layout of columns");
 }

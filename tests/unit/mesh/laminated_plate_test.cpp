@@ -16,7 +16,8 @@
 namespace cdfp {
 namespace {
 
-constexpr PlateColumns kLayouts[] = {PlateColumns::regular, PlateColumns::graded};
+constexpr PlateColumns kLayouts[] = {PlateColumns::regular, PlateColumns::graded, PlateColumns::o_grid,
+                                     PlateColumns::irregular};
 
 Vec3 node_place(const Mesh& mesh, Index node) {
   return Vec3::load(&mesh.coordinates[3 * node]);
