@@ -1,0 +1,35 @@
+/// The data that a kernel works on: a block of elements of one part, `[component][lane]`.
+#pragma once
+
+#include <cstdint>
+
+#include "material/constants.hpp"
+
+namespace cdfp {
+
+/// What all elements of a part share.
+struct PartConstants {
+  MaterialConstants material;
+
+  // Hourglass stiffness relative to that of bending (see one_point.hpp).
+  double bending_coupling = 0, shear_share = 0, warping_share = 0;
+
+  double density = 0;                ///< kg/m3
+  double critical_norm_squared = 0;  ///< Pa2, of the second Piola-Kirchhoff stress; infinite: never critical
+};
+
+struct BlockInput {
+  const Lanes* constants;
+  const std::int32_t* offsets;  ///< [corner][lane], 3 * node; idle lanes repeat the last element
+  Lanes* state;
+  int count;  ///< lanes in use
+  const PartConstants* part;
+  StepConstants step;
+  const double* position;
+};
+
+struct BlockEnergy {
+  double strain = 0, hourglass = 0, dissipated = 0;
+};
+
+}  // namespace cdfp

@@ -1,0 +1,47 @@
+/// The compiled work on a block, one function for each formulation and law, and one set for each instruction
+/// set that the processor may have.
+#pragma once
+
+#include <array>
+
+#include "element/block.hpp"
+
+namespace cdfp {
+
+enum class BlockKind : int {
+  prism_elastic,
+  prism_rate_dependent,
+  hexahedron_elastic,
+  hexahedron_rate_dependent,
+  full_elastic,
+  full_rate_dependent
+};
+inline constexpr int kBlockKinds = 6;
+
+struct BlockKernel {
+  int constants = 0;  ///< components an element
+  int state = 0;
+  /// Subtracts the internal forces from `force` and advances the state. Bit l of the answer: lane l is
+  /// critical.
+  std::uint64_t (*add_force)(const BlockInput& block, double* force) = nullptr;
+  BlockEnergy (*energy)(const BlockInput& block) = nullptr;
+  /// Bounds of omega^2 as deformed now, 1/s2, one a lane; `terms`: the four StepTerms.
+  void (*step_bound)(const BlockInput& block, const Lanes* terms, double* omega_squared) = nullptr;
+};
+
+struct Kernels {
+  const char* name;
+  std::array<BlockKernel, kBlockKinds> kinds;
+};
+
+extern const Kernels kKernelsBaseline;
+#ifdef CDFP_HAS_X86_VARIANTS
+extern const Kernels kKernelsAvx2;
+extern const Kernels kKernelsAvx512;
+#endif
+
+/// The best set that this processor runs. The environment variable CDFP_ISA (baseline, avx2 or avx512) may
+/// name a lesser one; throws `Error(bad_argument)` for another word or a set that the processor lacks.
+const Kernels& choose_kernels();
+
+}  // namespace cdfp

@@ -1,0 +1,27 @@
+/// What the laws of a part share, and the size of a block of points.
+#pragma once
+
+namespace cdfp {
+
+inline constexpr int kLanes = 64;
+
+/// One component of a block.
+struct alignas(64) Lanes {
+  double value[kLanes];
+};
+
+struct MaterialConstants {
+  double lambda = 0, mu = 0;  ///< Pa, Lame constants (of the static branch if rate dependent)
+
+  // Rate-dependent branch: a tensor of unit modulus times rate_modulus * rate^rate_exponent.
+  double unit_lambda = 0, unit_mu = 0;
+  double rate_modulus = 0, rate_exponent = 0;
+};
+
+/// What a step changes for all elements of a part.
+struct StepConstants {
+  double per_step = 0;    ///< 1/s; 0: no time passes
+  double rate_blend = 0;  ///< share of the present rate in the smoothed one
+};
+
+}  // namespace cdfp
