@@ -14,6 +14,11 @@
 #include "scratch_folder.hpp"
 #include "vtu_reader.hpp"
 
+/// The leak checker's hook: what fontconfig keeps to the end is not ours.
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libfontconfig\n";
+}
+
 namespace cdfp {
 namespace {
 
