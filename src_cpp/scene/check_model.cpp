@@ -86,12 +86,14 @@ void check_rigid_nodes(const Model& model) {
   for (Index e = 0; e < mesh.element_count(); ++e) {
     const Index part = mesh.parts[e];
     for (Index i = first[e]; i < first[e + 1]; ++i) {
-      Index& seen = owner[mesh.connectivity[i]];
-      require(
-          seen == kNone || seen == part || !(rigid_part[part] || rigid_part[seen]),
-          "node " + std::to_string(mesh.connectivity[i]) + " belongs to part '" + mesh.part_names[part] +
-              "' and part '" + mesh.part_names[seen] +
-              "', of which one is rigid; give the rigid part nodes of its own and let them touch by contact");
+      const Index node = mesh.connectivity[i];
+      Index& seen = owner[node];
+      if (seen != kNone && seen != part && (rigid_part[part] || rigid_part[seen])) {
+        refuse(
+            "node " + std::to_string(node) + " belongs to part '" + mesh.part_names[part] + "' and part '" +
+            mesh.part_names[seen] +
+            "', of which one is rigid; give the rigid part nodes of its own and let them touch by contact");
+      }
       seen = part;
     }
   }
