@@ -1,0 +1,137 @@
+// Bending, locking and vibration against theory, by the elements' linear stiffness.
+#include <gtest/gtest.h>
+
+#include "fixtures.hpp"
+
+namespace cdfp::test {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+struct Linear {
+  MatrixXd k;
+  VectorXd mass;
+};
+
+Linear linear(const Model& model) {
+  ElementForce elements(model);
+  std::vector<double> mass(model.mesh.coordinates.size() / 3, 0.0);
+  elements.add_mass(mass);
+  Linear result{stiffness(elements, model.mesh.coordinates, 1e-9), VectorXd(3 * Index(mass.size()))};
+  for (std::size_t i = 0; i < 3 * mass.size(); ++i) result.mass[Index(i)] = mass[i / 3];
+  return result;
+}
+
+/// Deflection along z at the end of a strip held at x = 0, with `load` spread over its end, over that of a
+/// Timoshenko beam. `plane_strain` holds y everywhere.
+double deflection_ratio(const Box& box, Formulation formulation, double nu, bool plane_strain,
+                        double slant = 0) {
+  const double modulus = 1e9, load = 1e-3;
+  Mesh mesh = box_mesh(box);
+  for (std::size_t n = 0; n < mesh.coordinates.size() / 3; ++n) {
+    double& x = mesh.coordinates[3 * n];
+    const double z = mesh.coordinates[3 * n + 2];
+    if (x > 1e-9 * box.lx && x < (1 - 1e-9) * box.lx) x += slant * (z - 0.5 * box.lz);
+  }
+  const MatrixXd k = linear(model_of(std::move(mesh), formulation, modulus, nu)).k;
+  std::vector<Index> free;
+  VectorXd f = VectorXd::Zero(k.rows());
+  for (cdfp::Index kz = 0; kz <= box.nz; ++kz) {
+    for (cdfp::Index j = 0; j <= box.ny; ++j) {
+      for (cdfp::Index i = 0; i <= box.nx; ++i) {
+        const Index n = 3 * Index(box.node(i, j, kz));
+        // The root may grow in y and z, but for the middle.
+        if (i > 0) free.push_back(n);
+        if (!plane_strain && !(i == 0 && j == 0)) free.push_back(n + 1);
+        if (!(i == 0 && kz == 0)) free.push_back(n + 2);
+        if (i == box.nx) {
+          const double share = (j == 0 || j == box.ny ? 0.5 : 1.0) * (kz == 0 || kz == box.nz ? 0.5 : 1.0);
+          f[n + 2] = load * share / (box.ny * box.nz);
+        }
+      }
+    }
+  }
+  VectorXd reduced_load(free.size());
+  for (std::size_t i = 0; i < free.size(); ++i) reduced_load[Index(i)] = f[free[i]];
+  const VectorXd u = reduced(k, free).ldlt().solve(reduced_load);
+  const double mean = reduced_load.dot(u) / load;
+  const double bending = plane_strain ? modulus / (1 - nu * nu) : modulus;
+  const double area = box.ly * box.lz, shear = modulus / (2 * (1 + nu));
+  const double beam = load * std::pow(box.lx, 3) / (3 * bending * area * box.lz * box.lz / 12) +
+                      load * box.lx / (5.0 / 6 * shear * area);
+  return mean / beam;
+}
+
+TEST(Bending, StripOfOnePointElementsIsABeam) {
+  for (const cdfp::Index layers : {1, 3, 5}) {
+    const Box box{16, 1, layers, 16, 1, 1};
+    EXPECT_NEAR(deflection_ratio(box, Formulation::one_point, 0.2, false), 1, 0.01) << layers << " layers";
+  }
+}
+
+TEST(Bending, StripOfFlatElementsIsABeam) {
+  // 1.12 mm columns, 2.5 mm in three layers: as in a laminated plate
+  const Box box{16, 1, 3, 18e-3, 1.12e-3, 2.5e-3};
+  EXPECT_NEAR(deflection_ratio(box, Formulation::one_point, 0.2, false), 1, 0.015);
+}
+
+TEST(Bending, SlantedElementsAreSomewhatStiff) {
+  const Box box{16, 1, 3, 16, 1, 1};
+  EXPECT_NEAR(deflection_ratio(box, Formulation::one_point, 0.2, false, 0.3), 1, 0.05);
+}
+
+TEST(Bending, WidePlateOfOnePointElements) {
+  const Box box{16, 1, 3, 16, 1, 1};
+  EXPECT_NEAR(deflection_ratio(box, Formulation::one_point, 0.3, true), 1, 0.015);
+  EXPECT_NEAR(deflection_ratio(box, Formulation::one_point, 0.49, true), 1, 0.02);
+}
+
+TEST(Locking, NearlyIncompressibleStripBendsFreely) {
+  // Displacement elements are stiff in bending where they are long; how stiff must not depend on nu.
+  const Box box{24, 1, 6, 12, 1, 2};
+  const double soft = deflection_ratio(box, Formulation::full, 0.3, true);
+  EXPECT_NEAR(soft, 1, 0.03);
+  EXPECT_NEAR(deflection_ratio(box, Formulation::full, 0.49, true), soft, 0.02);
+  EXPECT_NEAR(deflection_ratio(box, Formulation::full, 0.4999, true), soft, 0.03);
+}
+
+/// First frequency of a hard simply supported plate 100 x 100 mm by its quarter.
+double plate_frequency(double thickness, cdfp::Index columns, cdfp::Index layers, Formulation formulation) {
+  const Box box{columns, columns, layers, 50e-3, 50e-3, thickness};
+  const Linear plate = linear(model_of(box_mesh(box), formulation));
+  std::vector<Index> free;
+  for (cdfp::Index k = 0; k <= box.nz; ++k) {
+    for (cdfp::Index j = 0; j <= box.ny; ++j) {
+      for (cdfp::Index i = 0; i <= box.nx; ++i) {
+        // Support at x = 0 and y = 0; symmetry at the far sides.
+        const Index n = 3 * Index(box.node(i, j, k));
+        if (j > 0 && i < box.nx) free.push_back(n);
+        if (i > 0 && j < box.ny) free.push_back(n + 1);
+        if (i > 0 && j > 0) free.push_back(n + 2);
+      }
+    }
+  }
+  VectorXd root_mass(free.size());
+  for (std::size_t i = 0; i < free.size(); ++i) root_mass[Index(i)] = std::sqrt(plate.mass[free[i]]);
+  const Eigen::LDLT<MatrixXd> solver(reduced(plate.k, free));
+  VectorXd v = root_mass;
+  double omega_squared = 0;
+  for (int i = 0; i < 30; ++i) {
+    const VectorXd next = root_mass.cwiseProduct(solver.solve(root_mass.cwiseProduct(v)));
+    omega_squared = v.dot(v) / v.dot(next);
+    v = next.normalized();
+  }
+  return std::sqrt(omega_squared) / (2 * std::numbers::pi);
+}
+
+TEST(Vibration, SimplySupportedPlate) {
+  // exact three-dimensional solution, first mode
+  EXPECT_NEAR(plate_frequency(10e-3, 8, 3, Formulation::one_point) / 4883.41, 1, 0.01);
+  EXPECT_NEAR(plate_frequency(5e-3, 8, 3, Formulation::one_point) / 2498.02, 1, 0.01);
+  EXPECT_NEAR(plate_frequency(10e-3, 8, 1, Formulation::one_point) / 4883.41, 1, 0.02);
+}
+
+}  // namespace
+}  // namespace cdfp::test
