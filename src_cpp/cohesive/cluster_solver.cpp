@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -10,7 +12,7 @@ namespace cdfp {
 namespace {
 
 constexpr int kIterations = 30;
-constexpr int kUndamped = 8;         ///< iterations before a correction that does not help is halved
+constexpr int kUndamped = 2;         ///< iterations before a correction that does not help is halved
 constexpr double kTolerance = 1e-9;  ///< of the reach
 
 /// Gaussian elimination with row exchange; `b` becomes the solution.
@@ -154,6 +156,34 @@ void ClusterSolver::solve(double step) {
   }
   if (!settled) {
     ++fixed;
+    if (getenv("DBG")) {
+      printf("unsettled nodes %zu points %zu\n", nodes.size(), points.size());
+      for (auto& p : points) {
+        auto& i = p.increment;
+        printf(
+            "  %d-%d n %.2f %.2f %.2f from_n/R %.3e t/R %.3e D/R %.3e contact c %.2e fr %.2f now %.3e slip "
+            "%.2e\n",
+            p.upper, p.lower, i.normal.x, i.normal.y, i.normal.z, i.from_n / i.softening.reach,
+            norm(i.from_t) / i.softening.reach, i.largest / i.softening.reach, i.contact, i.friction,
+            norm(p.now) / i.softening.reach, norm(i.slip));
+      }
+      for (bool r : {true, false}) {
+        start(r);
+        double sz;
+        for (int k = 0; k < 15; k++) {
+          sz = evaluate();
+          printf(" %.2e [", sz / reach);
+          for (auto& p : points)
+            printf("%.2e,%.2e ", dot(opening(p), p.increment.normal) / p.increment.softening.reach,
+                   p.increment.weights.opening(Split(opening(p), p.increment.normal).n,
+                                               Split(opening(p), p.increment.normal).t2()) /
+                       p.increment.softening.reach);
+          printf("]\n");
+          correct();
+        }
+        printf("\n");
+      }
+    }
     start(true);
     for (Point& p : points) p.increment.freeze(opening(p));
     evaluate();

@@ -18,13 +18,13 @@ namespace cdfp {
 
 namespace {
 
-/// Opening over reach below which a face is a stiff spring instead of rigid. The softening line starts there
-/// at the full strength; strength and energy are exact.
-constexpr double kRigidOpening = 1e-6;
-/// Stiffness of a closed face over the stiffness that the nodes' inertia shows in a step. The mean traction
-/// takes any; the plain scheme only what it can follow.
-constexpr double kContactStiffness = 1e4;
-constexpr double kPlainContactStiffness = 0.5;
+/// A closed face, and one that has not opened yet, is a spring this much stiffer than the inertia that the
+/// nodes show in a step. The mean traction takes any stiffness; the plain scheme only what it can follow.
+constexpr double kStiffness = 1000;
+constexpr double kPlainStiffness = 0.5;
+/// Opening over reach, at most, at which that spring carries the strength. The softening line starts there at
+/// the full strength; strength and energy are exact.
+constexpr double kRigidOpening = 0.01;
 constexpr std::int64_t kGrain = 64;
 
 struct Law {
@@ -41,10 +41,12 @@ struct Point {
   double largest = 0;  ///< effective opening
   double contact = 0;  ///< Pa/m; 0 until the pair exists
   Vec3 slip;           ///< elastic slip of the friction spring
-  double stored = 0;   ///< J/m2, as the next three
-  double work = 0;     ///< of the traction on the law: opening done against it
-  double heat = 0;     ///< of friction
   double growth = 0;   ///< integral of m dD, m
+  double work = 0;     ///< J/m2, done against the cohesive traction
+  double stored = 0;   ///< J/m2, by the cohesive traction
+  double pressed = 0;  ///< J/m2, stored in contact and the friction spring
+  double heat = 0;     ///< J/m2, done against contact and friction, less `pressed`
+  double ahead = 0;    ///< J/m2, of the work above: from the step to the half step ahead of it
 
   bool exists() const { return upper != lower; }
   bool broken() const { return largest >= softening.reach; }
@@ -76,6 +78,8 @@ struct CohesiveZone::Points {
   void revive(Index facet);
   void add_force(Nodes& nodes, double step, double time, const Threads& threads);
   void turn(Index facet, const Nodes& nodes);
+  void stiffen(Point& point, const Nodes& nodes, double step) const;
+  void solve_cluster(const Clusters::Cluster& cluster, Nodes& nodes, double step, ClusterSolver& work);
   void load_cluster(const Clusters::Cluster& cluster, const Nodes& nodes, double step,
                     ClusterSolver& work) const;
   void load_point(const Clusters::Slot& slot, double step, ClusterSolver& work,
@@ -89,10 +93,6 @@ struct CohesiveZone::Points {
   std::span<const Point> points_of(Index facet) const {
     return {&points[4 * static_cast<std::size_t>(facet)], static_cast<std::size_t>(facets[facet].corners)};
   }
-  double contact_factor() const {
-    return scheme == CohesiveScheme::plain ? kPlainContactStiffness : kContactStiffness;
-  }
-
   CohesiveScheme scheme;
   std::vector<Index> part_of_element;
   std::vector<Index> layer_of_element;
@@ -108,7 +108,8 @@ struct CohesiveZone::Points {
   std::vector<Index> broken_elements;
   Index broken_count = 0;
   Index bulk_count = 0;
-  Energy closed;  ///< of facets that left `live`
+  Energy closed;               ///< of facets that left `live`
+  double ahead_of_closed = 0;  ///< J, as `Point::ahead`, of those that left in the last step
 };
 
 CohesiveZone::Points::Points(const Model& model, CohesiveScheme chosen)
@@ -183,11 +184,9 @@ void CohesiveZone::Points::insert(const Topology& topology, const Insertion& ins
   double strength = effective_traction(facet.traction, facets[f].normal, law.shear_ratio);
   if (!(strength > 0)) strength = law.strength;
   const double reach = 2 * law.fracture_energy / strength;
-  const double start = scheme == CohesiveScheme::plain ? 0 : kRigidOpening;
   for (Index c = 0; c < n; ++c) {
     Point& point = points[4 * static_cast<std::size_t>(f) + c];
-    point.softening = {strength / (1 - start), reach};
-    point.largest = start * reach;
+    point.softening = {strength, reach};
     clusters.add(4 * f + c, point.upper);
     if (point.exists()) revive(f);
   }
@@ -221,6 +220,37 @@ void CohesiveZone::Points::turn(Index facet, const Nodes& nodes) {
   const Vec3 doubled = f.corners == 4 ? cross(middle(2) - middle(0), middle(3) - middle(1))
                                       : cross(middle(1) - middle(0), middle(2) - middle(0));
   f.normal = (f.orientation / norm(doubled)) * doubled;
+}
+
+/// Stiffnesses of a pair that has just come to be, from the inertia of its nodes.
+void CohesiveZone::Points::stiffen(Point& point, const Nodes& nodes, double step) const {
+  const double inertia = 1 / nodes.mass[point.upper] + 1 / nodes.mass[point.lower];
+  const double yields = 0.5 * step * step * inertia * point.area;  // m/Pa
+  if (scheme == CohesiveScheme::plain) {
+    point.contact = kPlainStiffness / yields;
+    return;
+  }
+  point.contact = kStiffness / yields;
+  const double strength = point.softening.scale;
+  const double start = std::min(kRigidOpening, strength / (point.contact * point.softening.reach));
+  point.largest = start * point.softening.reach;
+  point.softening.scale = strength / (1 - start);
+}
+
+void CohesiveZone::Points::solve_cluster(const Clusters::Cluster& cluster, Nodes& nodes, double step,
+                                         ClusterSolver& w) {
+  for (const Clusters::Slot& slot : clusters.slots(cluster)) {
+    Point& point = points[slot.point];
+    if (!(point.contact > 0)) stiffen(point, nodes, step);
+  }
+  load_cluster(cluster, nodes, step, w);
+  if (scheme == CohesiveScheme::plain) {
+    solve_plain(cluster, step, w);
+  } else {
+    w.solve(step);
+  }
+  ++w.solved;
+  store_cluster(cluster, nodes, step, w);
 }
 
 void CohesiveZone::Points::load_cluster(const Clusters::Cluster& cluster, const Nodes& nodes, double step,
@@ -298,7 +328,8 @@ void CohesiveZone::Points::solve_plain(const Clusters::Cluster& cluster, double 
       p.reaction.traction = k * (std::max(at.n, 0.0) * i.normal + i.weights.traction * at.t);
     }
     if (at.n < 0 && i.contact > 0) {
-      p.reaction.traction += (i.contact * at.n) * i.normal;
+      p.reaction.contact = i.contact * at.n;
+      p.reaction.traction += p.reaction.contact * i.normal;
       const Vec3 before = p.now - step * (w.nodes[p.upper].behind - w.nodes[p.lower].behind);
       const Vec3 trial = i.slip + at.t - Split(before, i.normal).t;
       const double limit = -i.friction * i.contact * at.n;
@@ -344,19 +375,23 @@ void CohesiveZone::Points::store_cluster(const Clusters::Cluster& cluster, Nodes
     point.largest = std::max(i.largest, i.weights.opening(at.n, at.t2()));
     if (whole && point.broken()) w.broke.push_back(slots[s].point);
 
-    const double elastic = 0.5 * i.contact * dot(p.reaction.slip, p.reaction.slip);
-    point.heat += dot(p.reaction.friction, moved) - elastic + 0.5 * i.contact * dot(i.slip, i.slip);
-    point.slip = p.reaction.slip;
-    point.work += dot(p.reaction.traction, moved);
-    const double closed_by = std::min(at.n, 0.0);
+    const Reaction& reaction = p.reaction;
+    const Vec3 closed_face = reaction.contact * i.normal + reaction.friction;
+    point.work += dot(reaction.traction - closed_face, moved);
     const double stiffness = point.largest > 0 ? point.softening.stiffness(point.largest) : 0.0;
-    point.stored = 0.5 * stiffness * i.weights.quadratic(at.n, at.t2()) +
-                   0.5 * i.contact * closed_by * closed_by + elastic;
+    point.stored = 0.5 * stiffness * i.weights.quadratic(at.n, at.t2());
+    const double gap = std::min(at.n, 0.0);
+    const double pressed = 0.5 * i.contact * (gap * gap + dot(reaction.slip, reaction.slip));
+    point.heat += dot(closed_face, moved) - (pressed - point.pressed);
+    point.pressed = pressed;
+    point.slip = reaction.slip;
+    point.ahead = (0.5 * step) * dot(reaction.traction, ahead);
   }
 }
 
 void CohesiveZone::Points::add_force(Nodes& nodes, double step, double time, const Threads& threads) {
   broken_elements.clear();
+  ahead_of_closed = 0;
   clusters.update([this](Index p) {
     const Point& point = points[p];
     const bool lost = point.broken() && facets[p / 4].broken;
@@ -373,22 +408,7 @@ void CohesiveZone::Points::add_force(Nodes& nodes, double step, double time, con
                      [&](std::int64_t begin, std::int64_t end) {
                        ClusterSolver& w = work[omp_get_thread_num()];
                        for (std::int64_t k = begin; k < end; ++k) {
-                         const Clusters::Cluster& cluster = all[k];
-                         if (cluster.slots == 0) continue;
-                         for (const Clusters::Slot& slot : clusters.slots(cluster)) {
-                           Point& point = points[slot.point];
-                           if (point.contact > 0) continue;
-                           const double inertia = 1 / nodes.mass[point.upper] + 1 / nodes.mass[point.lower];
-                           point.contact = contact_factor() / (0.5 * step * step * inertia * point.area);
-                         }
-                         load_cluster(cluster, nodes, step, w);
-                         if (scheme == CohesiveScheme::plain) {
-                           solve_plain(cluster, step, w);
-                         } else {
-                           w.solve(step);
-                         }
-                         ++w.solved;
-                         store_cluster(cluster, nodes, step, w);
+                         if (all[k].slots > 0) solve_cluster(all[k], nodes, step, w);
                        }
                      });
   retire_broken(time);
@@ -412,13 +432,15 @@ void CohesiveZone::Points::retire_broken(double time) {
   for (const Index f : broke) {
     Facet& facet = facets[f];
     const Energy now = energy_of(f);
-    closed.dissipated += now.dissipated + now.stored;
+    closed.dissipated += now.dissipated;
     closed.friction += now.friction;
     closed.ga += now.ga;
     facet.live = false;
     for (Index c = 0; c < facet.corners; ++c) {
       Point& point = points[4 * static_cast<std::size_t>(f) + c];
-      point.stored = point.work = point.heat = point.growth = 0;
+      closed.friction += point.area * (point.stored + point.pressed);
+      ahead_of_closed += point.area * point.ahead;
+      point.growth = point.work = point.stored = point.pressed = point.heat = point.ahead = 0;
       point.slip = {};
       if (point.exists()) clusters.touch(point.upper);
     }
@@ -434,9 +456,9 @@ void CohesiveZone::Points::retire_broken(double time) {
 CohesiveZone::Energy CohesiveZone::Points::energy_of(Index facet) const {
   Energy sum;
   for (const Point& p : points_of(facet)) {
-    sum.stored += p.area * p.stored;
+    sum.stored += p.area * (p.stored + p.pressed - p.ahead);
+    sum.dissipated += p.area * (p.work - p.stored);
     sum.friction += p.area * p.heat;
-    sum.dissipated += p.area * (p.work - p.stored - p.heat);
     sum.ga += p.area * 0.5 * p.softening.scale * p.growth;
   }
   return sum;
@@ -469,6 +491,7 @@ Index CohesiveZone::broken_count() const {
 
 CohesiveZone::Energy CohesiveZone::energy() const {
   Energy sum = points_->closed;
+  sum.stored -= points_->ahead_of_closed;
   for (const Index f : points_->live) {
     const Energy e = points_->energy_of(f);
     sum.stored += e.stored;

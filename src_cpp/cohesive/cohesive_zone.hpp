@@ -41,8 +41,10 @@ class CohesiveZone {
   Index count() const;
   Index broken_count() const;
 
-  /// J. `dissipated` is what the forces took from the nodes, less what is stored and what friction turned to
-  /// heat; `ga` what the law says for the same openings. The two agree as far as the time stepping is right.
+  /// J, at the time of the last `add_force`. `dissipated` is what the cohesive forces took from the nodes
+  /// less what is stored; `ga` what the law says for the same openings: they agree as far as the time
+  /// stepping is right. `friction` is heat between closed faces and what their contact loses where a closed
+  /// face breaks or turns.
   struct Energy {
     double stored = 0;
     double dissipated = 0;

@@ -16,6 +16,14 @@ Vec3 doubled_area(const FacetNodes& facet, std::span<const double> position) {
   return facet.count == 4 ? cross(x(2) - x(0), x(3) - x(1)) : cross(x(1) - x(0), x(2) - x(0));
 }
 
+/// What may open the facet: pressure holds part of the shear back (Mohr-Coulomb).
+double opening_traction(Vec3 traction, Vec3 normal, const CohesiveLaw& law) {
+  const double pressure = -dot(traction, normal);
+  if (pressure <= 0) return effective_traction(traction, normal, law.shear_ratio);
+  const double shear = norm(traction + pressure * normal);
+  return std::max(0.0, shear - law.internal_friction * pressure) / law.shear_ratio;
+}
+
 }  // namespace
 
 Criterion::Criterion(const Model& model) : part_of_element_(model.mesh.parts) {
@@ -74,7 +82,7 @@ void Criterion::find(std::span<const Index> candidates, const Topology& topology
     const CohesiveLaw& law = law_of_part_[part_of_element_[side.upper]];
     const Vec3 normal = normalized(doubled_area(topology.facet_nodes(side.lower), position));
     const Vec3 traction = 0.5 * (stress_of(side.lower.element) + stress_of(side.upper)) * normal;
-    if (effective_traction(traction, normal, law.shear_ratio) >= law.strength) {
+    if (opening_traction(traction, normal, law) >= law.strength) {
       open.push_back({side.lower, traction});
     }
   }

@@ -25,10 +25,11 @@ struct Slope {
 };
 
 struct Reaction {
-  Vec3 traction;  ///< Pa, that the upper side exerts on the lower one
-  Vec3 friction;  ///< the part of it that is friction
-  Vec3 slip;      ///< elastic slip at the half step ahead
-  Slope slope;    ///< of the traction by the opening ahead, Pa/m
+  Vec3 traction;       ///< Pa, that the upper side exerts on the lower one
+  Vec3 friction;       ///< the part of it that is friction
+  double contact = 0;  ///< the part of it along the normal that is contact; negative presses
+  Vec3 slip;           ///< elastic slip at the half step ahead
+  Slope slope;         ///< of the traction by the opening ahead, Pa/m
 };
 
 struct Increment {
@@ -82,7 +83,28 @@ struct Increment {
     if (loads) {
       const Vec3 gradient = std::max(to.n, 0.0) * normal + weights.effective * to.t;
       out.slope.add_dyad((k.slope / r) * path, gradient);
+      if (weights.mode_ratio != 1) add_path(to, r, k, gradient, out);
     }
+  }
+
+  /// Where the ratio of opening to sliding changes on the way, the mean stiffness misses the work of the
+  /// straight path by a little: the rest goes along the increment (Gonzalez 1996).
+  void add_path(const Split& to, double r, Softening::Mean k, Vec3 gradient, Reaction& out) const {
+    const Vec3 moved = (to.n - from_n) * normal + (to.t - from_t);
+    const double square = dot(moved, moved);
+    const double s0 = weights.quadratic(from_n, dot(from_t, from_t));
+    const double s1 = weights.quadratic(to.n, to.t2());
+    const double k1 = softening.stiffness(r);
+    Vec3 turning;
+    const double growth = weighted_growth(weights, normal, from_n * normal + from_t, to.n * normal + to.t,
+                                          largest, softening.reach, &turning);
+    const double missing = 0.5 * (k1 * s1 - unloading * s0 + softening.scale * growth - k.value * (s1 - s0));
+    out.traction += (missing / square) * moved;
+    const Vec3 path = std::max(to.n, 0.0) * normal + weights.traction * to.t;
+    const Vec3 missing_slope = (k1 - k.value) * path - (0.5 * (s1 - s0) * k.slope / r) * gradient +
+                               (0.5 * softening.scale) * turning;
+    out.slope.add_dyad(moved / square, missing_slope - (2 * missing / square) * moved);
+    out.slope.add_axial(missing / square, missing / square, normal);
   }
 
   /// A stiff spring that only pushes, and Coulomb friction by an elastic slip that ends where it slides:
@@ -90,7 +112,8 @@ struct Increment {
   void add_contact(const Split& to, Reaction& out) const {
     PositiveMean closing = positive_mean(-from_n, -to.n);
     if (linear) closing = {-0.5 * (from_n + to.n), 0.5};
-    out.traction += (-contact * closing.value) * normal;
+    out.contact = -contact * closing.value;
+    out.traction += out.contact * normal;
     out.slope.add_axial(contact * closing.slope, 0, normal);
     if (friction <= 0) return;
     const double limit = friction * contact * closing.value;

@@ -95,8 +95,9 @@ inline PositiveMean positive_mean(double a, double b) {
 }
 
 /// Integral of m dD along the straight segment from opening `d0` to `d1`, D starting at `largest` and ending
-/// at `reach` at most: the segment's dissipation over S/2.
+/// at `reach` at most: the segment's dissipation over S/2. To `slope` is added what its slope by `d1` has
+/// beyond m grad r.
 double weighted_growth(const ModeWeights& weights, Vec3 normal, Vec3 d0, Vec3 d1, double largest,
-                       double reach);
+                       double reach, Vec3* slope = nullptr);
 
 }  // namespace cdfp
