@@ -59,6 +59,9 @@ struct CohesiveLaw {
   double shear_ratio = 1;        ///< eta: peak shear over strength
   double friction = 0;           ///< Coulomb coefficient between closed faces
   double friction_exponent = 1;  ///< q of f = 1 - (1 - opening/reach)^q (eq. 31)
+  /// Mohr-Coulomb: on a facet under pressure p only |Tt| - internal_friction * p can open it. For a shear
+  /// strength S and a compressive strength C it is (t - 1/t) / 2 with t = C / (2 S).
+  double internal_friction = 0;
 };
 
 struct Part {

@@ -103,6 +103,7 @@ void read_cohesive_laws(TomlTable& top, Model& model) {
     t.read("shear_ratio", law.shear_ratio, kPositive);
     t.read("friction", law.friction, kNotNegative);
     t.read("friction_exponent", law.friction_exponent, kPositive);
+    t.read("internal_friction", law.internal_friction, kNotNegative);
     t.finish();
     model.cohesive_laws.push_back(std::move(law));
   }

@@ -58,6 +58,7 @@ void check_law(const CohesiveLaw& law) {
   require_positive(law.shear_ratio, where + ": shear_ratio");
   require(law.friction >= 0, where + ": friction must not be negative");
   require_positive(law.friction_exponent, where + ": friction_exponent");
+  require(law.internal_friction >= 0, where + ": internal_friction must not be negative");
 }
 
 void check_parts(const Model& model) {
