@@ -12,18 +12,10 @@ namespace cdfp::gate {
 
 namespace {
 
-struct Entry {
-  const char* kind;
-  std::shared_ptr<void> object;
-  int owners = 1;
-  int looking = 0;
-  bool changing = false;
-};
-
 struct Table {
   std::mutex mutex;
   std::uintptr_t last = 0;
-  std::unordered_map<std::uintptr_t, Entry> entries;
+  std::unordered_map<std::uintptr_t, std::shared_ptr<Kept>> kept;
 };
 
 Table& table() {
@@ -37,16 +29,22 @@ std::uintptr_t number(const void* handle) {
 
 thread_local char error_text[4096] = "";
 
+void* new_handle(std::shared_ptr<Kept> kept) {
+  const std::uintptr_t handle = ++table().last;
+  table().kept.emplace(handle, std::move(kept));
+  return reinterpret_cast<void*>(handle);  // NOLINT(performance-no-int-to-ptr): never followed
+}
+
 /// Throws unless the handle lives and is of the kind (any if null). The table is locked by the caller.
-Entry& find(const void* handle, const char* kind) {
+std::shared_ptr<Kept> find(const void* handle, const char* kind) {
   const std::string wanted = kind ? kind : "handle";
   if (!handle) refuse("the " + wanted + " is null; make one with the create function first");
-  const auto found = table().entries.find(number(handle));
-  if (found == table().entries.end()) {
+  const auto found = table().kept.find(number(handle));
+  if (found == table().kept.end()) {
     refuse("the " + wanted + " is not alive: it was freed, or its handle was never set; make a new one");
   }
-  if (kind && std::strcmp(found->second.kind, kind) != 0) {
-    refuse("the handle stands for a " + std::string(found->second.kind) + ", not for a " + wanted);
+  if (kind && std::strcmp(found->second->kind, kind) != 0) {
+    refuse("the handle stands for a " + std::string(found->second->kind) + ", not for a " + wanted);
   }
   return found->second;
 }
@@ -54,57 +52,51 @@ Entry& find(const void* handle, const char* kind) {
 }  // namespace
 
 void* keep(const char* kind, std::shared_ptr<void> object) {
+  auto kept = std::make_shared<Kept>(Kept{kind, std::move(object)});
   const std::lock_guard lock(table().mutex);
-  const std::uintptr_t handle = ++table().last;
-  table().entries.emplace(handle, Entry{kind, std::move(object)});
-  return reinterpret_cast<void*>(handle);  // NOLINT(performance-no-int-to-ptr): never followed
+  return new_handle(std::move(kept));
 }
 
-void share(const void* handle) {
+void* share(const void* handle) {
   const std::lock_guard lock(table().mutex);
-  ++find(handle, nullptr).owners;
+  return new_handle(find(handle, nullptr));
 }
 
-bool release(const void* handle) {
-  std::shared_ptr<void> last;  // destroyed after the lock is gone
+void release(const void* handle) {
+  std::shared_ptr<Kept> last;  // destroyed after the lock is gone
   const std::lock_guard lock(table().mutex);
-  const auto found = table().entries.find(number(handle));
-  if (found == table().entries.end()) return false;
-  if (--found->second.owners > 0) return true;
-  last = std::move(found->second.object);
-  table().entries.erase(found);
-  return true;
+  const auto found = table().kept.find(number(handle));
+  if (found == table().kept.end()) return;
+  last = std::move(found->second);
+  table().kept.erase(found);
 }
 
 std::int64_t live_handles() {
   const std::lock_guard lock(table().mutex);
-  return static_cast<std::int64_t>(table().entries.size());
+  return static_cast<std::int64_t>(table().kept.size());
 }
 
-Lease::Lease(const void* handle, const char* kind, bool change) : handle_(handle), change_(change) {
+Lease::Lease(const void* handle, const char* kind, bool change) : change_(change) {
   const std::lock_guard lock(table().mutex);
-  Entry& entry = find(handle, kind);
-  if (entry.changing || (change && entry.looking > 0)) {
+  kept_ = find(handle, kind);
+  if (kept_->changing || (change && kept_->looking > 0)) {
     throw Error(Status::bad_state, "the " + std::string(kind) +
                                        " is in use by another call; use it from one thread at a time and not "
                                        "from a callback that it made");
   }
-  object_ = entry.object;
   if (change) {
-    entry.changing = true;
+    kept_->changing = true;
   } else {
-    ++entry.looking;
+    ++kept_->looking;
   }
 }
 
 Lease::~Lease() {
   const std::lock_guard lock(table().mutex);
-  const auto found = table().entries.find(number(handle_));
-  if (found == table().entries.end()) return;
   if (change_) {
-    found->second.changing = false;
+    kept_->changing = false;
   } else {
-    --found->second.looking;
+    --kept_->looking;
   }
 }
 
@@ -191,8 +183,7 @@ int32_t cdfp_version(int32_t* major, int32_t* minor, int32_t* patch) {
 int32_t cdfp_share(const void* handle, void** copy) {
   return guarded(__func__, [&] {
     need(copy, "copy");
-    share(handle);
-    *copy = const_cast<void*>(handle);
+    *copy = share(handle);
   });
 }
 

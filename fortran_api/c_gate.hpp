@@ -54,10 +54,19 @@ struct Held<cdfp_topology> {
 
 // ---- the table of live handles ----
 
+/// An object, and who uses it at the moment.
+struct Kept {
+  const char* kind;
+  std::shared_ptr<void> object;
+  int looking = 0;
+  bool changing = false;
+};
+
 void* keep(const char* kind, std::shared_ptr<void> object);
-void share(const void* handle);
-/// False if the handle is not alive (freed before).
-bool release(const void* handle);
+/// A handle of its own to the same object.
+void* share(const void* handle);
+/// Does nothing if the handle is not alive (freed before).
+void release(const void* handle);
 std::int64_t live_handles();
 
 /// Use of the object behind a handle for the length of a call: many may look, one may change.
@@ -67,12 +76,11 @@ class Lease {
   ~Lease();
   Lease(const Lease&) = delete;
   Lease& operator=(const Lease&) = delete;
-  void* object() const { return object_.get(); }
+  void* object() const { return kept_->object.get(); }
 
  private:
-  const void* handle_;
+  std::shared_ptr<Kept> kept_;
   bool change_;
-  std::shared_ptr<void> object_;
 };
 
 template <class Handle>

@@ -5,8 +5,10 @@
 !>   connectivity.
 !> - Every procedure takes an optional `stat` (0: done, or one of CDFP_BAD_ARGUMENT and the like) and
 !>   `errmsg`. Without `stat` an error stops the program with the message.
-!> - A copy of an object by assignment is one more owner of the same object: what is done to one is seen by
-!>   both. The object goes with its last owner. `free` may be called twice.
+!> - A copy of an object by assignment (`b = a`) is one more owner of the same object: what is done to one is
+!>   seen by both, and the object goes with its last owner, when that is freed, made anew or ceases to exist.
+!>   Copies that come about otherwise (within an array or a type of yours) name the object without owning it.
+!>   `free` may be called twice; an object that has gone is recognised by every call.
 !> - Numbers count from 1 in arguments and results; 0 is "none". In messages of errors they count from 0.
 !> - Different objects may be used by different threads at once.
 module cdfp
@@ -15,10 +17,10 @@ module cdfp
     CDFP_UNAVAILABLE, CDFP_INTERNAL, CDFP_REGULAR, CDFP_GRADED, CDFP_O_GRID, CDFP_IRREGULAR, CDFP_ONE_POINT, &
     CDFP_FULL, CDFP_HEXAHEDRON, CDFP_TETRAHEDRON, CDFP_WEDGE, CDFP_PYRAMID, CDFP_COHESIVE_QUADRILATERAL, &
     CDFP_COHESIVE_TRIANGLE, cdfp_laminated_plate, cdfp_energies, cdfp_body_state, cdfp_summary
-  use cdfp_meshes, only: cdfp_mesh, default_laminated_plate
-  use cdfp_models, only: cdfp_model
-  use cdfp_simulations, only: cdfp_simulation, cdfp_recorder
-  use cdfp_topologies, only: cdfp_topology
+  use cdfp_meshes, only: cdfp_mesh, default_laminated_plate, assignment(=)
+  use cdfp_models, only: cdfp_model, assignment(=)
+  use cdfp_simulations, only: cdfp_simulation, cdfp_recorder, assignment(=)
+  use cdfp_topologies, only: cdfp_topology, assignment(=)
   implicit none
   public
 end module cdfp

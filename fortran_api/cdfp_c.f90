@@ -1,5 +1,6 @@
 !> The C interface of cdfp, one to one: see cdfp/cdfp.h, which says what each function does. Numbers count
-!> from 0 here and strings end with c_null_char; the module `cdfp` is what Fortran programs call.
+!> from 0 here and strings end with c_null_char; the module `cdfp` is what Fortran programs call. Results are
+!> `intent(inout)` since a call that fails leaves them as they are.
 module cdfp_c
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int32_t, c_int64_t, c_ptr
   implicit none
@@ -46,15 +47,15 @@ module cdfp_c
   interface
     function cdfp_last_error(text, capacity, length) bind(c) result(status)
       import
-      character(kind=c_char), intent(out) :: text(*)
+      character(kind=c_char), intent(inout) :: text(*)
       integer(c_int64_t), value :: capacity
-      integer(c_int64_t), intent(out) :: length
+      integer(c_int64_t), intent(inout) :: length
       integer(c_int32_t) :: status
     end function
 
     function cdfp_version(major, minor, patch) bind(c) result(status)
       import
-      integer(c_int32_t), intent(out) :: major, minor, patch
+      integer(c_int32_t), intent(inout) :: major, minor, patch
       integer(c_int32_t) :: status
     end function
 
@@ -73,7 +74,7 @@ module cdfp_c
 
     function cdfp_laminated_plate_default(plate) bind(c) result(status)
       import
-      type(cdfp_laminated_plate), intent(out) :: plate
+      type(cdfp_laminated_plate), intent(inout) :: plate
       integer(c_int32_t) :: status
     end function
 
@@ -93,39 +94,39 @@ module cdfp_c
     function cdfp_mesh_coordinates(mesh, coordinates, nodes) bind(c) result(status)
       import
       type(c_ptr), value :: mesh
-      type(c_ptr), intent(out) :: coordinates
-      integer(c_int64_t), intent(out) :: nodes
+      type(c_ptr), intent(inout) :: coordinates
+      integer(c_int64_t), intent(inout) :: nodes
       integer(c_int32_t) :: status
     end function
 
     function cdfp_mesh_hexahedra(mesh, hexahedra, elements) bind(c) result(status)
       import
       type(c_ptr), value :: mesh
-      type(c_ptr), intent(out) :: hexahedra
-      integer(c_int64_t), intent(out) :: elements
+      type(c_ptr), intent(inout) :: hexahedra
+      integer(c_int64_t), intent(inout) :: elements
       integer(c_int32_t) :: status
     end function
 
     function cdfp_mesh_parts(mesh, parts, elements) bind(c) result(status)
       import
       type(c_ptr), value :: mesh
-      type(c_ptr), intent(out) :: parts
-      integer(c_int64_t), intent(out) :: elements
+      type(c_ptr), intent(inout) :: parts
+      integer(c_int64_t), intent(inout) :: elements
       integer(c_int32_t) :: status
     end function
 
     function cdfp_mesh_layers(mesh, layers, elements) bind(c) result(status)
       import
       type(c_ptr), value :: mesh
-      type(c_ptr), intent(out) :: layers
-      integer(c_int64_t), intent(out) :: elements
+      type(c_ptr), intent(inout) :: layers
+      integer(c_int64_t), intent(inout) :: elements
       integer(c_int32_t) :: status
     end function
 
     function cdfp_mesh_part_count(mesh, count) bind(c) result(status)
       import
       type(c_ptr), value :: mesh
-      integer(c_int64_t), intent(out) :: count
+      integer(c_int64_t), intent(inout) :: count
       integer(c_int32_t) :: status
     end function
 
@@ -133,9 +134,9 @@ module cdfp_c
       import
       type(c_ptr), value :: mesh
       integer(c_int64_t), value :: part
-      character(kind=c_char), intent(out) :: text(*)
+      character(kind=c_char), intent(inout) :: text(*)
       integer(c_int64_t), value :: capacity
-      integer(c_int64_t), intent(out) :: length
+      integer(c_int64_t), intent(inout) :: length
       integer(c_int32_t) :: status
     end function
 
@@ -143,8 +144,8 @@ module cdfp_c
       import
       type(c_ptr), value :: mesh
       character(kind=c_char), intent(in) :: name(*)
-      type(c_ptr), intent(out) :: nodes
-      integer(c_int64_t), intent(out) :: count
+      type(c_ptr), intent(inout) :: nodes
+      integer(c_int64_t), intent(inout) :: count
       integer(c_int32_t) :: status
     end function
 
@@ -152,8 +153,8 @@ module cdfp_c
       import
       type(c_ptr), value :: mesh
       character(kind=c_char), intent(in) :: name(*)
-      type(c_ptr), intent(out) :: facets
-      integer(c_int64_t), intent(out) :: count
+      type(c_ptr), intent(inout) :: facets
+      integer(c_int64_t), intent(inout) :: count
       integer(c_int32_t) :: status
     end function
 
@@ -311,7 +312,7 @@ module cdfp_c
     function cdfp_model_get_contact(model, settings) bind(c) result(status)
       import
       type(c_ptr), value :: model
-      type(cdfp_contact_settings), intent(out) :: settings
+      type(cdfp_contact_settings), intent(inout) :: settings
       integer(c_int32_t) :: status
     end function
 
@@ -380,7 +381,7 @@ module cdfp_c
       import
       type(c_ptr), value :: simulation
       integer(c_int64_t), value :: steps
-      integer(c_int64_t), intent(out), optional :: done
+      integer(c_int64_t), intent(inout), optional :: done
       integer(c_int32_t) :: status
     end function
 
@@ -388,95 +389,95 @@ module cdfp_c
       import
       type(c_ptr), value :: simulation
       real(c_double), value :: time
-      integer(c_int64_t), intent(out), optional :: done
+      integer(c_int64_t), intent(inout), optional :: done
       integer(c_int32_t) :: status
     end function
 
     function cdfp_simulation_finished(simulation, finished) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      integer(c_int32_t), intent(out) :: finished
+      integer(c_int32_t), intent(inout) :: finished
       integer(c_int32_t) :: status
     end function
 
     function cdfp_simulation_time(simulation, time) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      real(c_double), intent(out) :: time
+      real(c_double), intent(inout) :: time
       integer(c_int32_t) :: status
     end function
 
     function cdfp_simulation_step_size(simulation, step_size) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      real(c_double), intent(out) :: step_size
+      real(c_double), intent(inout) :: step_size
       integer(c_int32_t) :: status
     end function
 
     function cdfp_simulation_stable_step(simulation, stable_step) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      real(c_double), intent(out) :: stable_step
+      real(c_double), intent(inout) :: stable_step
       integer(c_int32_t) :: status
     end function
 
     function cdfp_simulation_controlling_element(simulation, element) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      integer(c_int32_t), intent(out) :: element
+      integer(c_int32_t), intent(inout) :: element
       integer(c_int32_t) :: status
     end function
 
     function cdfp_simulation_step_count(simulation, steps) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      integer(c_int64_t), intent(out) :: steps
+      integer(c_int64_t), intent(inout) :: steps
       integer(c_int32_t) :: status
     end function
 
     function cdfp_simulation_node_count(simulation, nodes) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      integer(c_int64_t), intent(out) :: nodes
+      integer(c_int64_t), intent(inout) :: nodes
       integer(c_int32_t) :: status
     end function
 
     function cdfp_simulation_positions(simulation, positions, nodes) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      type(c_ptr), intent(out) :: positions
-      integer(c_int64_t), intent(out) :: nodes
+      type(c_ptr), intent(inout) :: positions
+      integer(c_int64_t), intent(inout) :: nodes
       integer(c_int32_t) :: status
     end function
 
     function cdfp_simulation_velocities(simulation, velocities, nodes) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      type(c_ptr), intent(out) :: velocities
-      integer(c_int64_t), intent(out) :: nodes
+      type(c_ptr), intent(inout) :: velocities
+      integer(c_int64_t), intent(inout) :: nodes
       integer(c_int32_t) :: status
     end function
 
     function cdfp_simulation_forces(simulation, forces, nodes) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      type(c_ptr), intent(out) :: forces
-      integer(c_int64_t), intent(out) :: nodes
+      type(c_ptr), intent(inout) :: forces
+      integer(c_int64_t), intent(inout) :: nodes
       integer(c_int32_t) :: status
     end function
 
     function cdfp_simulation_masses(simulation, masses, nodes) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      type(c_ptr), intent(out) :: masses
-      integer(c_int64_t), intent(out) :: nodes
+      type(c_ptr), intent(inout) :: masses
+      integer(c_int64_t), intent(inout) :: nodes
       integer(c_int32_t) :: status
     end function
 
     function cdfp_simulation_body_count(simulation, bodies) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      integer(c_int64_t), intent(out) :: bodies
+      integer(c_int64_t), intent(inout) :: bodies
       integer(c_int32_t) :: status
     end function
 
@@ -484,28 +485,28 @@ module cdfp_c
       import
       type(c_ptr), value :: simulation
       integer(c_int64_t), value :: body
-      type(cdfp_body_state), intent(out) :: state
+      type(cdfp_body_state), intent(inout) :: state
       integer(c_int32_t) :: status
     end function
 
     function cdfp_simulation_cohesive_count(simulation, inserted, broken) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      integer(c_int64_t), intent(out) :: inserted, broken
+      integer(c_int64_t), intent(inout) :: inserted, broken
       integer(c_int32_t) :: status
     end function
 
     function cdfp_simulation_energies(simulation, energies) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      type(cdfp_energies), intent(out) :: energies
+      type(cdfp_energies), intent(inout) :: energies
       integer(c_int32_t) :: status
     end function
 
     function cdfp_simulation_summary(simulation, summary) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      type(cdfp_summary), intent(out) :: summary
+      type(cdfp_summary), intent(inout) :: summary
       integer(c_int32_t) :: status
     end function
 
@@ -513,16 +514,16 @@ module cdfp_c
       import
       type(c_ptr), value :: simulation
       character(kind=c_char), intent(in) :: part(*)
-      real(c_double), intent(out) :: time
-      integer(c_int32_t), intent(out) :: layer
-      real(c_double), intent(out) :: position(3)
+      real(c_double), intent(inout) :: time
+      integer(c_int32_t), intent(inout) :: layer
+      real(c_double), intent(inout) :: position(3)
       integer(c_int32_t) :: status
     end function
 
     function cdfp_simulation_warning_count(simulation, count) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      integer(c_int64_t), intent(out) :: count
+      integer(c_int64_t), intent(inout) :: count
       integer(c_int32_t) :: status
     end function
 
@@ -530,17 +531,17 @@ module cdfp_c
       import
       type(c_ptr), value :: simulation
       integer(c_int64_t), value :: warning
-      character(kind=c_char), intent(out) :: text(*)
+      character(kind=c_char), intent(inout) :: text(*)
       integer(c_int64_t), value :: capacity
-      integer(c_int64_t), intent(out) :: length
+      integer(c_int64_t), intent(inout) :: length
       integer(c_int32_t) :: status
     end function
 
     function cdfp_simulation_history(simulation, values, rows, columns) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      type(c_ptr), intent(out) :: values
-      integer(c_int64_t), intent(out) :: rows, columns
+      type(c_ptr), intent(inout) :: values
+      integer(c_int64_t), intent(inout) :: rows, columns
       integer(c_int32_t) :: status
     end function
 
@@ -549,9 +550,9 @@ module cdfp_c
       import
       type(c_ptr), value :: simulation
       integer(c_int64_t), value :: column
-      character(kind=c_char), intent(out) :: text(*)
+      character(kind=c_char), intent(inout) :: text(*)
       integer(c_int64_t), value :: capacity
-      integer(c_int64_t), intent(out) :: length
+      integer(c_int64_t), intent(inout) :: length
       integer(c_int32_t) :: status
     end function
 
@@ -601,14 +602,14 @@ module cdfp_c
     function cdfp_topology_node_count(topology, nodes) bind(c) result(status)
       import
       type(c_ptr), value :: topology
-      integer(c_int64_t), intent(out) :: nodes
+      integer(c_int64_t), intent(inout) :: nodes
       integer(c_int32_t) :: status
     end function
 
     function cdfp_topology_element_count(topology, elements, bulk) bind(c) result(status)
       import
       type(c_ptr), value :: topology
-      integer(c_int64_t), intent(out) :: elements, bulk
+      integer(c_int64_t), intent(inout) :: elements, bulk
       integer(c_int32_t) :: status
     end function
 
@@ -616,7 +617,7 @@ module cdfp_c
       import
       type(c_ptr), value :: topology
       integer(c_int32_t), value :: element
-      integer(c_int32_t), intent(out) :: type
+      integer(c_int32_t), intent(inout) :: type
       integer(c_int32_t) :: status
     end function
 
@@ -624,8 +625,8 @@ module cdfp_c
       import
       type(c_ptr), value :: topology
       integer(c_int32_t), value :: element
-      type(c_ptr), intent(out) :: nodes
-      integer(c_int64_t), intent(out) :: count
+      type(c_ptr), intent(inout) :: nodes
+      integer(c_int64_t), intent(inout) :: count
       integer(c_int32_t) :: status
     end function
 
@@ -633,7 +634,7 @@ module cdfp_c
       import
       type(c_ptr), value :: topology
       integer(c_int32_t), value :: element
-      integer(c_int64_t), intent(out) :: facets
+      integer(c_int64_t), intent(inout) :: facets
       integer(c_int32_t) :: status
     end function
 
@@ -641,7 +642,7 @@ module cdfp_c
       import
       type(c_ptr), value :: topology
       integer(c_int32_t), value :: element, facet
-      integer(c_int32_t), intent(out) :: mate_element, mate_facet
+      integer(c_int32_t), intent(inout) :: mate_element, mate_facet
       integer(c_int32_t) :: status
     end function
 
@@ -650,7 +651,7 @@ module cdfp_c
       type(c_ptr), value :: topology
       integer(c_int32_t), value :: element, facet
       integer(c_int32_t), intent(inout) :: nodes(*)
-      integer(c_int64_t), intent(out) :: count
+      integer(c_int64_t), intent(inout) :: count
       integer(c_int32_t) :: status
     end function
 
@@ -661,7 +662,7 @@ module cdfp_c
       integer(c_int32_t), value :: element, edge
       integer(c_int64_t), value :: capacity
       integer(c_int32_t), intent(inout) :: uses(*)
-      integer(c_int64_t), intent(out) :: count
+      integer(c_int64_t), intent(inout) :: count
       integer(c_int32_t) :: status
     end function
 
@@ -672,7 +673,7 @@ module cdfp_c
       integer(c_int32_t), value :: node
       integer(c_int64_t), value :: capacity
       integer(c_int32_t), intent(inout) :: uses(*)
-      integer(c_int64_t), intent(out) :: count
+      integer(c_int64_t), intent(inout) :: count
       integer(c_int32_t) :: status
     end function
 
@@ -681,20 +682,20 @@ module cdfp_c
       import
       type(c_ptr), value :: topology
       integer(c_int32_t), value :: element, facet
-      integer(c_int32_t), intent(out) :: cohesive_element
-      type(c_ptr), intent(out) :: new_nodes
-      integer(c_int64_t), intent(out) :: new_node_count
-      type(c_ptr), intent(out) :: renumbered
-      integer(c_int64_t), intent(out) :: renumbered_count
+      integer(c_int32_t), intent(inout) :: cohesive_element
+      type(c_ptr), intent(inout) :: new_nodes
+      integer(c_int64_t), intent(inout) :: new_node_count
+      type(c_ptr), intent(inout) :: renumbered
+      integer(c_int64_t), intent(inout) :: renumbered_count
       integer(c_int32_t) :: status
     end function
 
     function cdfp_topology_check(topology, text, capacity, length) bind(c) result(status)
       import
       type(c_ptr), value :: topology
-      character(kind=c_char), intent(out) :: text(*)
+      character(kind=c_char), intent(inout) :: text(*)
       integer(c_int64_t), value :: capacity
-      integer(c_int64_t), intent(out) :: length
+      integer(c_int64_t), intent(inout) :: length
       integer(c_int32_t) :: status
     end function
   end interface

@@ -6,18 +6,33 @@ module cdfp_handles
   private
   public :: counted_handle, report, refuse, c_text, fortran_text, copy_numbers, copy_rows
 
-  !> One owner of an object. A copy by assignment is one more owner of the same object, which goes with its
-  !> last owner: by `free`, when its variable ceases to exist, or when another is assigned to it.
+  !> One owner of an object, which goes with its last owner: by `free`, when the owner's variable ceases to
+  !> exist, or when it is made to own another. `share` makes one more owner.
+  !>
+  !> A copy that the compiler makes by itself (a component of a type of the user's, an element of an array) is
+  !> no owner: it names the object for as long as the original owner holds it. Owners know each other from
+  !> copies by the place where they were made, so that whatever a compiler finalizes, only owners give back.
   type :: counted_handle
     type(c_ptr) :: address = c_null_ptr
+    type(c_ptr), private :: home = c_null_ptr
   contains
-    procedure, private :: share
-    generic :: assignment(=) => share
+    procedure :: own
+    procedure :: share
     procedure :: free
     final :: finalize
   end type
 
 contains
+
+  !> Takes over what a create function has made.
+  subroutine own(this, address)
+    class(counted_handle), intent(inout), target :: this
+    type(c_ptr), intent(in) :: address
+
+    call finalize(this)
+    this%address = address
+    this%home = c_loc(this%address)
+  end subroutine
 
   subroutine share(this, other)
     class(counted_handle), intent(inout) :: this
@@ -27,8 +42,7 @@ contains
 
     copy = c_null_ptr
     if (c_associated(other%address)) status = cdfp_share(other%address, copy)
-    call this%free()
-    this%address = copy
+    call this%own(copy)
   end subroutine
 
   !> May be called twice.
@@ -40,9 +54,10 @@ contains
   end subroutine
 
   impure elemental subroutine finalize(this)
-    type(counted_handle), intent(inout) :: this
+    type(counted_handle), intent(inout), target :: this
 
-    call this%free()
+    if (c_associated(this%home, c_loc(this%address))) call this%free()
+    this%home = c_null_ptr
   end subroutine
 
   !> Hands a status on as the standard's own statements do: `stat` is set if present; on an error `errmsg` is

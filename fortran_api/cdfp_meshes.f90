@@ -5,7 +5,7 @@ module cdfp_meshes
   use cdfp_handles
   implicit none
   private
-  public :: cdfp_mesh, default_laminated_plate
+  public :: cdfp_mesh, default_laminated_plate, assignment(=)
 
   !> Numbers of nodes, elements, facets, parts and layers count from 1.
   type :: cdfp_mesh
@@ -23,6 +23,11 @@ module cdfp_meshes
     procedure :: get_facet_set
   end type
 
+  !> One more owner of the same object.
+  interface assignment(=)
+    module procedure assign
+  end interface
+
 contains
 
   !> The geometry of examples/laminated_glass at the paper's full size.
@@ -37,9 +42,13 @@ contains
     type(cdfp_laminated_plate), intent(in) :: plate
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: made
+    integer(c_int32_t) :: status
 
-    call this%handle%free()
-    call report(cdfp_mesh_create_laminated_plate(plate, this%handle%address), stat, errmsg)
+    made = c_null_ptr
+    status = cdfp_mesh_create_laminated_plate(plate, made)
+    call this%handle%own(made)
+    call report(status, stat, errmsg)
   end subroutine
 
   subroutine free(this)
@@ -168,6 +177,13 @@ contains
     status = cdfp_mesh_facet_set(this%handle%address, c_text(name), data, count)
     if (status == CDFP_OK) call copy_rows(data, 2_c_int64_t, count, facets)
     call report(status, stat, errmsg)
+  end subroutine
+
+  subroutine assign(this, other)
+    type(cdfp_mesh), intent(inout) :: this
+    type(cdfp_mesh), intent(in) :: other
+
+    call this%handle%share(other%handle)
   end subroutine
 
 end module cdfp_meshes

@@ -5,7 +5,7 @@ module cdfp_models
   use cdfp_handles
   implicit none
   private
-  public :: cdfp_model
+  public :: cdfp_model, assignment(=)
 
   !> Names tie the entries together, in any order; `cdfp_simulation` checks them. All arguments are copied.
   !> Numbers of nodes, elements, facets, parts, layers and axes count from 1. Units are SI.
@@ -35,6 +35,11 @@ module cdfp_models
     procedure :: set_threads
   end type
 
+  !> One more owner of the same object.
+  interface assignment(=)
+    module procedure assign
+  end interface
+
 contains
 
   !> An empty model.
@@ -42,9 +47,13 @@ contains
     class(cdfp_model), intent(inout) :: this
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: made
+    integer(c_int32_t) :: status
 
-    call this%handle%free()
-    call report(cdfp_model_create(this%handle%address), stat, errmsg)
+    made = c_null_ptr
+    status = cdfp_model_create(made)
+    call this%handle%own(made)
+    call report(status, stat, errmsg)
   end subroutine
 
   subroutine free(this)
@@ -360,5 +369,12 @@ contains
     values = 0
     if (present(given)) values = merge(1_c_int32_t, 0_c_int32_t, given)
   end function
+
+  subroutine assign(this, other)
+    type(cdfp_model), intent(inout) :: this
+    type(cdfp_model), intent(in) :: other
+
+    call this%handle%share(other%handle)
+  end subroutine
 
 end module cdfp_models

@@ -6,7 +6,7 @@ module cdfp_simulations
   use cdfp_models
   implicit none
   private
-  public :: cdfp_simulation, cdfp_recorder
+  public :: cdfp_simulation, cdfp_recorder, assignment(=)
 
   !> Numbers count from 1. Views belong to the simulation and hold until its next step; to be read only.
   type :: cdfp_simulation
@@ -55,10 +55,15 @@ module cdfp_simulations
     function ask_nodes(simulation, values, nodes) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
-      type(c_ptr), intent(out) :: values
-      integer(c_int64_t), intent(out) :: nodes
+      type(c_ptr), intent(inout) :: values
+      integer(c_int64_t), intent(inout) :: nodes
       integer(c_int32_t) :: status
     end function
+  end interface
+
+  !> One more owner of the same object.
+  interface assignment(=)
+    module procedure assign_simulation, assign_recorder
   end interface
 
 contains
@@ -69,9 +74,13 @@ contains
     type(cdfp_model), intent(in) :: model
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: made
+    integer(c_int32_t) :: status
 
-    call this%handle%free()
-    call report(cdfp_simulation_create(model%handle%address, this%handle%address), stat, errmsg)
+    made = c_null_ptr
+    status = cdfp_simulation_create(model%handle%address, made)
+    call this%handle%own(made)
+    call report(status, stat, errmsg)
   end subroutine
 
   subroutine free(this)
@@ -400,10 +409,13 @@ contains
     character(len=*), intent(in) :: folder
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: made
+    integer(c_int32_t) :: status
 
-    call this%handle%free()
-    call report(cdfp_recorder_create(simulation%handle%address, c_text(folder), this%handle%address), stat, &
-                errmsg)
+    made = c_null_ptr
+    status = cdfp_recorder_create(simulation%handle%address, c_text(folder), made)
+    call this%handle%own(made)
+    call report(status, stat, errmsg)
   end subroutine
 
   subroutine free_recorder(this)
@@ -430,6 +442,20 @@ contains
     character(len=*), intent(inout), optional :: errmsg
 
     call report(cdfp_recorder_finish(this%handle%address, simulation%handle%address), stat, errmsg)
+  end subroutine
+
+  subroutine assign_simulation(this, other)
+    type(cdfp_simulation), intent(inout) :: this
+    type(cdfp_simulation), intent(in) :: other
+
+    call this%handle%share(other%handle)
+  end subroutine
+
+  subroutine assign_recorder(this, other)
+    type(cdfp_recorder), intent(inout) :: this
+    type(cdfp_recorder), intent(in) :: other
+
+    call this%handle%share(other%handle)
   end subroutine
 
 end module cdfp_simulations

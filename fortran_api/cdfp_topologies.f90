@@ -5,7 +5,7 @@ module cdfp_topologies
   use cdfp_handles
   implicit none
   private
-  public :: cdfp_topology
+  public :: cdfp_topology, assignment(=)
 
   !> Numbers of nodes, elements, local facets, edges and corners count from 1; 0 is "none".
   type :: cdfp_topology
@@ -31,6 +31,11 @@ module cdfp_topologies
 
   integer(c_int64_t), parameter :: usual_count = 64  ! of elements around an edge or a node
 
+  !> One more owner of the same object.
+  interface assignment(=)
+    module procedure assign
+  end interface
+
 contains
 
   !> `hexahedra` (8, elements).
@@ -40,16 +45,19 @@ contains
     integer(c_int32_t), contiguous, intent(in) :: hexahedra(:, :)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: made
+    integer(c_int32_t) :: status
 
-    call this%handle%free()
     if (size(hexahedra, 1) /= 8) then
       call refuse('cdfp_topology: hexahedra must be of shape (8, elements)', stat, errmsg)
       return
     end if
-    call report(cdfp_topology_create(int(nodes, c_int64_t), size(hexahedra, 2, c_int64_t), &
-                                     corners=size(hexahedra, kind=c_int64_t), &
-                                     connectivity=hexahedra - 1_c_int32_t, &
-                                     topology=this%handle%address), stat, errmsg)
+    made = c_null_ptr
+    status = cdfp_topology_create(int(nodes, c_int64_t), size(hexahedra, 2, c_int64_t), &
+                                  corners=size(hexahedra, kind=c_int64_t), &
+                                  connectivity=hexahedra - 1_c_int32_t, topology=made)
+    call this%handle%own(made)
+    call report(status, stat, errmsg)
   end subroutine
 
   !> `types`: CDFP_HEXAHEDRON and the like; `connectivity`: the corners of all elements one after the other.
@@ -60,11 +68,14 @@ contains
     integer(c_int32_t), contiguous, intent(in) :: connectivity(:)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: made
+    integer(c_int32_t) :: status
 
-    call this%handle%free()
-    call report(cdfp_topology_create(int(nodes, c_int64_t), size(types, kind=c_int64_t), types, &
-                                     size(connectivity, kind=c_int64_t), connectivity - 1_c_int32_t, &
-                                     this%handle%address), stat, errmsg)
+    made = c_null_ptr
+    status = cdfp_topology_create(int(nodes, c_int64_t), size(types, kind=c_int64_t), types, &
+                                  size(connectivity, kind=c_int64_t), connectivity - 1_c_int32_t, made)
+    call this%handle%own(made)
+    call report(status, stat, errmsg)
   end subroutine
 
   subroutine free(this)
@@ -274,5 +285,12 @@ contains
                 stat, errmsg)
     text = fortran_text(buffer, length)
   end function
+
+  subroutine assign(this, other)
+    type(cdfp_topology), intent(inout) :: this
+    type(cdfp_topology), intent(in) :: other
+
+    call this%handle%share(other%handle)
+  end subroutine
 
 end module cdfp_topologies

@@ -52,8 +52,8 @@ typedef struct cdfp_simulation cdfp_simulation;
 typedef struct cdfp_recorder cdfp_recorder;
 typedef struct cdfp_topology cdfp_topology;
 
-/** One more owner of the object behind a handle of any kind: `copy` is as good as `handle`, and each of the
- *  two must be freed. The object goes with its last owner. */
+/** One more owner of the object behind a handle of any kind: `copy` is a handle of its own to the same
+ * object, and each of the two must be freed. The object goes with its last owner. */
 int32_t cdfp_share(const void* handle, void** copy);
 
 /** What all the `..._free` below do, for a handle of any kind. */

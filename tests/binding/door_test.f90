@@ -1,0 +1,341 @@
+!> The module `cdfp` on two cubes: copies of handles, wrong calls, numbers that count from 1, views in place.
+program door_test
+  use, intrinsic :: iso_c_binding, only: c_int64_t
+  use, intrinsic :: iso_fortran_env, only: dp => real64, int32, int64, error_unit
+  use cdfp
+  implicit none
+
+  interface
+    function live_handles() bind(c) result(count)
+      import :: c_int64_t
+      integer(c_int64_t) :: count
+    end function
+  end interface
+
+  type :: holder
+    type(cdfp_model) :: model
+  end type
+
+  real(dp), parameter :: coordinates(3, 12) = reshape([real(dp) :: &
+    0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1, 0, 0, 2, 1, 0, 2, 1, 1, 2, 0, 1, 2], &
+    [3, 12])
+  integer(int32), parameter :: hexahedra(8, 2) = reshape([integer(int32) :: &
+    1, 2, 3, 4, 5, 6, 7, 8, 5, 6, 7, 8, 9, 10, 11, 12], [8, 2])
+  integer(int32), parameter :: parts(2) = 1_int32, layers(2) = [1_int32, 2_int32]
+  integer :: failures = 0, stat
+  character(len=300) :: message
+
+  call copies_own()
+  call check(live_handles() == 0, 'every object went with its last owner')
+  call copies_by_the_compiler()
+  call check(live_handles() == 0, 'copies by the compiler leave nothing')
+  call wrong_calls()
+  call topology()
+  call simulation()
+  call plate()
+  call check(live_handles() == 0, 'nothing is left at the end')
+  if (failures > 0) error stop 'door_test failed'
+
+contains
+
+  subroutine check(holds, what)
+    logical, intent(in) :: holds
+    character(len=*), intent(in) :: what
+
+    if (holds) return
+    failures = failures + 1
+    write (error_unit, '(2a)') 'failed: ', what
+  end subroutine
+
+  pure logical function same_bits(a, b)
+    real(dp), intent(in) :: a(:, :), b(:, :)
+
+    same_bits = size(a) == size(b) .and. all(transfer(a, [0_int64]) == transfer(b, [0_int64]))
+  end function
+
+  !> `stat` and `message` of the call just made.
+  subroutine check_refused(status, words)
+    integer(int32), intent(in) :: status
+    character(len=*), intent(in) :: words
+
+    call check(stat == status .and. index(message, words) > 0, &
+               'wanted "'//words//'", got "'//trim(message)//'"')
+    message = ''
+  end subroutine
+
+  subroutine copies_own()
+    type(cdfp_model) :: first, second, list(2)
+    type(cdfp_model), allocatable :: third
+
+    call first%create()
+    call check(live_handles() == 1, 'one owner')
+    second = first
+    call check(live_handles() == 2, 'a copy is one more owner')
+    call first%free()
+    call first%free()
+    call check_lives(second, 'a copy survives the original')
+    call check(live_handles() == 1, 'one is left')
+    second = second
+    call check_lives(second, 'assignment to itself keeps the object')
+    call check(live_handles() == 1, 'and makes no owner')
+    second = first
+    call check(live_handles() == 0, 'assigning nothing lets go')
+
+    call second%create()
+    call second%create()
+    call check(live_handles() == 1, 'made anew, the old object goes')
+    allocate (third)
+    third = second
+    list(1) = second
+    list(2) = list(1)
+    call check(live_handles() == 4, 'owners in an array')
+    call second%free()
+    deallocate (third)
+    call check(live_handles() == 2, 'a variable that ceases to exist lets go')
+    call check_lives(list(2), 'the array still owns')
+    call keep_for_a_while(list(1))
+    call check(live_handles() == 2, 'a local copy takes only its own share with it')
+  end subroutine
+
+  subroutine keep_for_a_while(model)
+    type(cdfp_model), intent(in) :: model
+    type(cdfp_model) :: local
+
+    local = model
+    call check(live_handles() == 3, 'a local copy is an owner')
+  end subroutine
+
+  !> Copies that the compiler makes by itself name the object; the owner keeps it and lets go of it.
+  subroutine copies_by_the_compiler()
+    type(cdfp_model) :: owner
+    type(cdfp_model), allocatable :: list(:)
+    type(holder) :: a, b
+
+    call owner%create()
+    call copy_holder(owner, a, b)
+    list = [owner, owner]
+    list = [list, owner]
+    call check(live_handles() == 1, 'no more owners')
+    call check_lives(a%model, 'in a structure constructor')
+    call check_lives(b%model, 'in a component')
+    call check_lives(list(3), 'in an array')
+    deallocate (list)
+    call check_lives(owner, 'the copies that went took nothing with them')
+    call owner%free()
+    call b%model%set_title('x', stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'the model is not alive')
+    call b%model%free()
+  end subroutine
+
+  subroutine copy_holder(model, one, other)
+    type(cdfp_model), intent(in) :: model
+    type(holder), intent(inout) :: one, other
+
+    one = holder(model)
+    other = one
+  end subroutine
+
+  subroutine check_lives(model, what)
+    type(cdfp_model), intent(in) :: model
+    character(len=*), intent(in) :: what
+
+    call model%set_title('alive', stat)
+    call check(stat == CDFP_OK, what)
+  end subroutine
+
+  subroutine define(model)
+    type(cdfp_model), intent(inout) :: model
+
+    call model%create()
+    call model%set_mesh(coordinates, hexahedra, parts, layers)
+    call model%add_node_set('bottom', [1_int32, 2_int32, 3_int32, 4_int32])
+    call model%add_elastic_material('glass', density=2500.0_dp, youngs_modulus=74e9_dp, poissons_ratio=0.2_dp)
+    call model%add_part('cubes', 'glass')
+    call model%set_time(end=0.1_dp)
+    call model%set_threads(1)
+  end subroutine
+
+  subroutine wrong_calls()
+    type(cdfp_model) :: model
+    type(cdfp_simulation) :: sim
+    type(cdfp_topology) :: tops
+    real(dp), pointer :: x(:, :)
+    real(dp) :: time, seconds, position(3)
+    integer(int32) :: mate(2)
+    integer(int32), allocatable :: nodes(:)
+    integer :: layer
+
+    message = ''
+    call model%set_title('x', stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'the model is null')
+    call sim%create(model, stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'the model is null')
+    x => sim%positions(stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'the simulation is null')
+    call check(.not. associated(x), 'no view of nothing')
+    time = sim%time(stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'the simulation is null')
+    call check(abs(time) <= 0, 'a failed query is 0')
+
+    call define(model)
+    call model%set_mesh(coordinates(1:2, :), hexahedra, parts, stat=stat, errmsg=message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'coordinates must be of shape (3, nodes)')
+    call model%set_mesh(coordinates, hexahedra(1:7, :), parts, stat=stat, errmsg=message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'hexahedra must be of shape (8, elements)')
+    call model%set_mesh(coordinates, hexahedra, parts(1:1), stat=stat, errmsg=message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'one part for each element')
+    call model%set_mesh(coordinates, hexahedra, parts, layers(1:1), stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'one layer for each element')
+    call model%add_facet_set('set', reshape([1_int32, 2_int32, 3_int32], [3, 1]), stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'facets must be of shape (2, n)')
+    call model%add_node_set('  ', [1_int32], stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, "'name' is empty")
+    call model%add_part('x', 'glass', formulation=9_int32, stat=stat, errmsg=message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'formulation is 9')
+    call model%add_symmetry_plane(0, 0.0_dp, stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'no axis -1')
+    call model%add_prescribed_velocity('bottom', [.true., .true., .true.], values=[1.0_dp], &
+                                       times=[0.0_dp, 1.0_dp], stat=stat, errmsg=message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'one value for each time')
+
+    call model%add_node_set('numbers from 0', [0_int32])
+    call sim%create(model, stat, message)
+    call check_refused(CDFP_BAD_MESH, 'numbers from 0')
+
+    call define(model)
+    call sim%create(model, stat, message)
+    call check(stat == CDFP_OK .and. len_trim(message) == 0, 'errmsg is untouched by success: '//message)
+    call sim%first_crack('cubes', seconds, layer, position, stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'that may crack')
+    call check(len(sim%warning(5, stat, message)) == 0, 'no text of a warning that is not there')
+    call check_refused(CDFP_BAD_ARGUMENT, 'no warning 4')
+
+    call tops%create(12, hexahedra(:4, :), stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'must be of shape (8, elements)')
+    call tops%create(12, hexahedra)
+    call tops%get_mate(3_int32, 1_int32, mate(1), mate(2), stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'no element 2')
+    call tops%get_nodes(0_int32, nodes, stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'no element -1')
+    call check(.not. allocated(nodes), 'nothing comes of a refused call')
+  end subroutine
+
+  subroutine topology()
+    type(cdfp_topology) :: tops, mixed
+    integer(int32), allocatable :: nodes(:), uses(:, :), new_nodes(:, :), renumbered(:, :)
+    integer(int32) :: mate(2), cohesive, facet, inner
+    integer :: i
+
+    call tops%create(12, hexahedra)
+    inner = 0
+    do facet = 1, int(tops%facet_count(1_int32), int32)
+      call tops%get_mate(1_int32, facet, mate(1), mate(2))
+      if (mate(1) == 2) inner = facet
+    end do
+    call tops%get_facet_nodes(1_int32, inner, nodes)
+    call check(size(nodes) == 4 .and. all(nodes >= 5 .and. nodes <= 8), 'nodes of the facet between the cubes')
+    call tops%get_elements_around_node(5_int32, uses)
+    call check(all(shape(uses) == [2, 2]), 'two elements around a node')
+    call check(all(reshape(uses, [4]) == [1, 5, 2, 1]), 'element and corner, from 1')
+    call tops%get_elements_around_edge(1_int32, 1_int32, uses)
+    call check(all(shape(uses) == [2, 1]) .and. uses(1, 1) == 1, 'an edge of one element')
+
+    call tops%insert_cohesive(1_int32, inner, cohesive, new_nodes, renumbered)
+    call check(tops%element_count() == 3 .and. cohesive == 3, 'the cohesive element comes after the bulk')
+    call check(tops%bulk_count() == 2, 'the bulk stays')
+    call check(tops%element_type(cohesive) == CDFP_COHESIVE_QUADRILATERAL, 'its type')
+    call check(tops%node_count() == 16, 'four nodes were split')
+    call check(all(new_nodes(1, :) == [13, 14, 15, 16]) .and. all(new_nodes(2, :) >= 5), 'copies and mothers')
+    do i = 1, size(renumbered, 2)
+      call tops%get_nodes(renumbered(1, i), nodes)
+      call check(nodes(renumbered(2, i)) == renumbered(4, i), 'corners name the new nodes')
+      call check(any(new_nodes(1, :) == renumbered(4, i) .and. new_nodes(2, :) == renumbered(3, i)), &
+                 'each by its mother')
+    end do
+    call tops%get_mate(1_int32, inner, mate(1), mate(2))
+    call check(mate(1) == 3, 'a cohesive element stands between')
+    call check(tops%check() == '', 'all relations hold')
+
+    call mixed%create(5, [CDFP_TETRAHEDRON, CDFP_TETRAHEDRON], &
+                      [integer(int32) :: 1, 2, 3, 4, 2, 3, 4, 5])
+    call check(mixed%element_count() == 2, 'two tetrahedra')
+    call check(mixed%facet_count(2_int32) == 4, 'of four facets')
+  end subroutine
+
+  !> A bar under gravity falls as a whole.
+  subroutine simulation()
+    type(cdfp_model) :: model
+    type(cdfp_simulation) :: sim, same
+    type(cdfp_energies) :: energy
+    type(cdfp_summary) :: told
+    real(dp), pointer :: x(:, :), v(:, :), f(:, :), m(:), history(:, :)
+    integer :: done
+    integer(int32) :: element
+    real(dp) :: t
+
+    call define(model)
+    call model%set_gravity([0.0_dp, 0.0_dp, -10.0_dp])
+    call model%add_initial_velocity('cubes', [1.0_dp, 0.0_dp, 0.0_dp])
+    call sim%create(model)
+    call model%free()
+    x => sim%positions()
+    call check(same_bits(x, coordinates), 'positions at the start are the coordinates')
+    call sim%advance(100, done)
+    call check(sim%step_count() == 100 .and. done == 100, 'a hundred steps')
+    same = sim
+    call same%step()
+    call check(sim%step_count() == 101, 'a copy names the same simulation')
+
+    x => sim%positions()
+    v => sim%velocities()
+    f => sim%forces()
+    m => sim%masses()
+    t = sim%time()
+    call check(sim%node_count() == 12 .and. size(x, 2) == 12, 'views of all nodes')
+    call check(abs(sum(m) - 5000) < 1e-9_dp, 'mass')
+    call check(all(abs(x(1, :) - coordinates(1, :) - t) < 1e-12_dp), 'flight')
+    call check(all(abs(x(3, :) - coordinates(3, :) + 5*t**2) < 1e-9_dp), 'fall')
+    call check(all(abs(v(3, :) + 10*(t + sim%step_size()/2)) < 1e-9_dp), 'velocities half a step ahead')
+    call check(abs(sum(f(3, :)) + 50000) < 1e-6_dp, 'weight')
+    energy = sim%energies()
+    call check(abs(energy%balance - 1) < 1e-3_dp .and. energy%kinetic > 2500, 'energies')
+    element = sim%controlling_element()
+    call check(element == 1 .or. element == 2, 'elements from 1')
+    call check(.not. sim%finished(), 'under way')
+    call check(sim%body_count() == 0, 'no rigid body')
+    call sim%advance_to(0.05_dp)
+    call check(abs(sim%time() - 0.05_dp) <= 0.5_dp*sim%step_size(), 'the step nearest to a time')
+    call sim%advance(huge(1))
+    call check(sim%finished(), 'the end')
+    told = sim%summary()
+    call check(sim%step_count() == told%steps .and. told%elements == 2 .and. told%threads == 1, 'summary')
+    history => sim%history()
+    call check(sim%history_column(1) == 'time_s' .and. size(history, 2) > 2, 'history')
+    call check(same_bits(history(:1, size(history, 2):), reshape([sim%time()], [1, 1])), 'its last row')
+  end subroutine
+
+  subroutine plate()
+    type(cdfp_laminated_plate) :: size_of_plate
+    type(cdfp_mesh) :: mesh
+    real(dp), allocatable :: x(:, :)
+    integer(int32), allocatable :: elements(:, :), part(:), layer(:), nodes(:), facets(:, :)
+
+    call default_laminated_plate(size_of_plate)
+    size_of_plate%columns = 4
+    size_of_plate%layout = CDFP_REGULAR
+    call mesh%create_laminated_plate(size_of_plate)
+    call mesh%get_coordinates(x)
+    call mesh%get_hexahedra(elements)
+    call mesh%get_parts(part)
+    call mesh%get_layers(layer)
+    call check(minval(elements) == 1 .and. maxval(elements) == size(x, 2), 'nodes from 1')
+    call check(mesh%part_count() == maxval(part) .and. minval(part) == 1, 'parts from 1')
+    call check(mesh%part_name(1) == 'lower_glass', 'name of the first part')
+    call check(minval(layer) == 1 .and. maxval(layer, mask=part == 1) == 5, 'layers from 1')
+    call mesh%get_node_set('support_bottom', nodes)
+    call check(size(nodes) == 25 .and. all(x(3, nodes) <= minval(x(3, :))), 'the bottom')
+    call mesh%get_facet_set('support_top', facets)
+    call check(size(facets, 1) == 2 .and. size(facets, 2) == 16 .and. minval(facets(2, :)) >= 1, 'a face')
+  end subroutine
+
+end program door_test
