@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -12,7 +10,9 @@ namespace cdfp {
 namespace {
 
 constexpr int kIterations = 30;
-constexpr int kUndamped = 2;         ///< iterations before a correction that does not help is halved
+constexpr int kUndamped = 2;  ///< iterations before a correction that does not help is halved
+constexpr double kSoftened =
+    0.01;  ///< of the stiffness, for good, where even a slow approach does not settle
 constexpr double kTolerance = 1e-9;  ///< of the reach
 
 /// Gaussian elimination with row exchange; `b` becomes the solution.
@@ -137,6 +137,23 @@ void ClusterSolver::start(bool at_rest) {
   }
 }
 
+/// Softer springs first, then step by step the true ones.
+bool ClusterSolver::approach(double tolerance) {
+  ++approached;
+  stiff_.clear();
+  for (const Point& p : points) stiff_.push_back(p.increment);
+  start(true);
+  bool settled = false;
+  for (const double share : {0.01, 0.05, 0.2, 1.0}) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      points[i].increment = stiff_[i];
+      if (share < 1) points[i].increment.soften(share);
+    }
+    settled = iterate(tolerance);
+  }
+  return settled;
+}
+
 void ClusterSolver::solve(double step) {
   const std::size_t n = nodes.size();
   half_ = 0.5 * step;
@@ -150,40 +167,14 @@ void ClusterSolver::solve(double step) {
 
   start(true);
   bool settled = iterate(tolerance);
+  if (!settled) settled = approach(tolerance);
   if (!settled) {
-    start(false);
+    ++softened;
+    for (Point& p : points) p.increment.soften(kSoftened);
     settled = iterate(tolerance);
   }
   if (!settled) {
     ++fixed;
-    if (getenv("DBG")) {
-      printf("unsettled nodes %zu points %zu\n", nodes.size(), points.size());
-      for (auto& p : points) {
-        auto& i = p.increment;
-        printf(
-            "  %d-%d n %.2f %.2f %.2f from_n/R %.3e t/R %.3e D/R %.3e contact c %.2e fr %.2f now %.3e slip "
-            "%.2e\n",
-            p.upper, p.lower, i.normal.x, i.normal.y, i.normal.z, i.from_n / i.softening.reach,
-            norm(i.from_t) / i.softening.reach, i.largest / i.softening.reach, i.contact, i.friction,
-            norm(p.now) / i.softening.reach, norm(i.slip));
-      }
-      for (bool r : {true, false}) {
-        start(r);
-        double sz;
-        for (int k = 0; k < 15; k++) {
-          sz = evaluate();
-          printf(" %.2e [", sz / reach);
-          for (auto& p : points)
-            printf("%.2e,%.2e ", dot(opening(p), p.increment.normal) / p.increment.softening.reach,
-                   p.increment.weights.opening(Split(opening(p), p.increment.normal).n,
-                                               Split(opening(p), p.increment.normal).t2()) /
-                       p.increment.softening.reach);
-          printf("]\n");
-          correct();
-        }
-        printf("\n");
-      }
-    }
     start(true);
     for (Point& p : points) p.increment.freeze(opening(p));
     evaluate();

@@ -39,11 +39,14 @@ class ClusterSolver {
 
   std::int64_t solved = 0;          ///< clusters, counted by the caller
   std::int64_t evaluations = 0;     ///< of all points of a cluster, so far
+  std::int64_t approached = 0;      ///< clusters that took more than Newton's method
+  std::int64_t softened = 0;        ///< clusters whose springs were made softer for good
   std::int64_t fixed = 0;           ///< clusters that Newton's method left
   std::vector<std::int32_t> broke;  ///< for the caller
 
  private:
   bool iterate(double tolerance);
+  bool approach(double tolerance);
   double evaluate();
   void correct();
   void start(bool at_rest);
@@ -52,6 +55,7 @@ class ClusterSolver {
   double half_ = 0;
   std::vector<Vec3> relative_;  ///< velocity against the first node
   std::vector<Vec3> before_;
+  std::vector<Increment> stiff_;
   std::vector<Vec3> residual_;
   std::vector<double> stiffness_;
   std::vector<double> matrix_;

@@ -20,7 +20,7 @@ namespace {
 
 /// A closed face, and one that has not opened yet, is a spring this much stiffer than the inertia that the
 /// nodes show in a step. The mean traction takes any stiffness; the plain scheme only what it can follow.
-constexpr double kStiffness = 1000;
+constexpr double kStiffness = 300;
 constexpr double kPlainStiffness = 0.5;
 /// Opening over reach, at most, at which that spring carries the strength. The softening line starts there at
 /// the full strength; strength and energy are exact.
@@ -375,6 +375,7 @@ void CohesiveZone::Points::store_cluster(const Clusters::Cluster& cluster, Nodes
     point.largest = std::max(i.largest, i.weights.opening(at.n, at.t2()));
     if (whole && point.broken()) w.broke.push_back(slots[s].point);
 
+    if (i.contact > 0) point.contact = i.contact;
     const Reaction& reaction = p.reaction;
     const Vec3 closed_face = reaction.contact * i.normal + reaction.friction;
     point.work += dot(reaction.traction - closed_face, moved);
@@ -534,6 +535,8 @@ CohesiveZone::Cost CohesiveZone::cost() const {
   for (const ClusterSolver& w : points_->work) {
     sum.clusters += w.solved;
     sum.evaluations += w.evaluations;
+    sum.approached += w.approached;
+    sum.softened += w.softened;
     sum.unsettled += w.fixed;
   }
   return sum;

@@ -60,6 +60,8 @@ class CohesiveZone {
   struct Cost {
     std::int64_t clusters = 0;     ///< solved
     std::int64_t evaluations = 0;  ///< of all points of a cluster
+    std::int64_t approached = 0;   ///< clusters that took softer springs first
+    std::int64_t softened = 0;     ///< clusters that kept them
     std::int64_t unsettled = 0;    ///< clusters whose stiffness was fixed over the step
   };
   Cost cost() const;

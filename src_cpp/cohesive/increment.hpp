@@ -48,6 +48,14 @@ struct Increment {
   bool linear = false;   ///< stiffness and contact as `freeze` found them
   bool closed = false;   ///< as `freeze` found it
 
+  /// Takes the stiffness of contact and of a little opened face down to `share` of that of contact.
+  void soften(double share) {
+    contact *= share;
+    if (unloading <= contact || contact == 0) return;
+    largest = softening.reach / (1 + contact * softening.reach / softening.scale);
+    unloading = contact;
+  }
+
   /// Fixes all that makes the reaction nonlinear as it is at opening `x`.
   void freeze(Vec3 x) {
     const Split to(x, normal);
@@ -56,7 +64,7 @@ struct Increment {
       unloading = softening.mean(largest, r0, r).value;
       largest = r;
     }
-    closed = to.n < 0;
+    closed = from_n < 0 && to.n < 0;
     friction = 0;
     linear = true;
   }
