@@ -9,56 +9,88 @@ namespace cdfp {
 namespace {
 
 /// A pair's stiffness is at most so much that k dt^2 (1/m_first + 1/m_second) stays below this (the lightest
-/// node of each side counts, so that the bound does not change as the pair slides). Central differences hold
-/// up to 4 for all springs at a node; two facing surfaces that search each other double a pair, and the
-/// elements take up to 2 to 3.
-constexpr double kStableShare = 0.5;
+/// node of each side counts, so that the bound does not change as the pair slides). Stability would allow
+/// more: central differences hold up to 4 for all springs at a node, two facing surfaces that search each
+/// other double a pair, and elements take 2 to 3. But the energy of an impact that lasts a few steps only is
+/// off by about k dt^2 / m of itself.
+constexpr double kStableShare = 0.25;
 
-void enforce(TouchingPair& pair, const SurfaceContact::Arrays& arrays, double friction, double step) {
-  Vec3 slip_speed;  // of the first side against the second
+/// Edges that meet do so with the gap passing through zero. A crossing that is this deep when first seen, as
+/// a share of the edges' height, came in sideways and is no contact: the bodies touch elsewhere.
+constexpr double kSideways = 0.01;
+
+Vec3 slip_speed(const TouchingPair& pair, const double* velocity) {
+  Vec3 speed;  // of the first side against the second
+  for (Index i = 0; i < pair.count; ++i) {
+    speed += pair.weights[i] * Vec3::load(velocity + 3 * static_cast<std::size_t>(pair.nodes[i]));
+  }
+  return speed;
+}
+
+/// Share of the penalty force in the steps in which the contact begins or will end. There the spring works
+/// over part of a step's approach only, `share`, but a force acts over all of it: with (1 + share)/2 of it
+/// the work is the spring's energy, where the whole of it takes up to k a^2/8 too much at the start and gives
+/// it at the end.
+double partial_step(double old_pressed, double pressed, double approach) {
+  const bool begins = old_pressed == 0 && approach < pressed;
+  const bool ends = approach > -pressed;
+  return begins || ends ? 0.5 * (1 + std::abs(pressed / approach)) : 1.0;
+}
+
+/// Heat is what the drag takes out of the motion (its work by the trapezoidal rule, as central differences do
+/// it) less what the stick spring keeps.
+double heat_of_drag(Vec3 old_drag, Vec3 drag, Vec3 slip, double old_stick_energy, double stick_energy) {
+  return -0.5 * dot(old_drag + drag, slip) - (stick_energy - old_stick_energy);
+}
+
+void bound_stiffness(TouchingPair& pair, const double* mass, double step) {
   double per_mass[2] = {0, 0};
   for (Index i = 0; i < pair.count; ++i) {
-    const std::size_t node = static_cast<std::size_t>(pair.nodes[i]);
-    slip_speed += pair.weights[i] * Vec3::load(&arrays.velocity[3 * node]);
-    pair.per_mass[i] = arrays.mass[node] > 0 ? 1 / arrays.mass[node] : 0;
+    const double m = mass[pair.nodes[i]];
+    pair.per_mass[i] = m > 0 ? 1 / m : 0;
     double& side = per_mass[i < pair.first_count ? 0 : 1];
     side = std::max(side, pair.per_mass[i]);
   }
-  const double approach = dot(pair.normal, slip_speed);
-  Grip& grip = pair.grip;
-  if (pair.fresh) {
-    // Penetration older than this step pushes nothing: springs start unloaded.
-    grip.stiffness = pair.stiffness;
-    grip.offset = std::min(0.0, pair.gap - approach * step);
-    grip.stick = Vec3{};
-  }
   const double softness = step * step * (per_mass[0] + per_mass[1]);
-  if (grip.stiffness * softness > kStableShare) grip.stiffness = kStableShare / softness;
+  if (pair.grip.stiffness * softness > kStableShare) pair.grip.stiffness = kStableShare / softness;
+}
 
-  const double gap = pair.gap - grip.offset;
-  pair.heat = 0;
-  if (gap >= 0) {
-    grip.offset = std::min(0.0, pair.gap);
-    pair.heat = grip.stick_energy();
-    grip.stick = Vec3{};
-    pair.force = Vec3{};
-    pair.stored = 0;
-    return;
+void enforce(TouchingPair& pair, const SurfaceContact::Arrays& arrays, double friction, double step) {
+  Grip& grip = pair.grip;
+  const Vec3 slip = step * slip_speed(pair, arrays.velocity.data());
+  const double approach = dot(pair.normal, slip);
+  if (pair.origin == TouchingPair::Origin::fresh) {
+    grip.stiffness = pair.stiffness;
+    pair.ignored = pair.first_count == 2 && std::min(approach, 0.0) - pair.gap > kSideways * pair.height;
+    if (pair.ignored) return;
   }
-  const double pressure = -grip.stiffness * gap;
+  bound_stiffness(pair, arrays.mass.data(), step);
+  if (pair.origin != TouchingPair::Origin::same) {
+    // The spring starts, or goes on, as long as this step's approach alone makes it: penetration from before
+    // pushes nothing, and a change of face gives no energy.
+    grip.offset = std::min(0.0, pair.gap - std::min(0.0, grip.pressed + approach));
+  }
+
+  const double old_pressed = grip.pressed;
+  const Vec3 old_drag = grip.drag;
+  const double old_stick_energy = grip.stick_energy();
+  grip.pressed = std::min(0.0, pair.gap - grip.offset);
+  if (grip.pressed == 0) grip.offset = std::min(0.0, pair.gap);
+  const double pressure = -grip.stiffness * grip.pressed * partial_step(old_pressed, grip.pressed, approach);
   pair.force = pressure * pair.normal;  // (25)
-  pair.stored = -0.5 * pressure * gap;
+  pair.stored = 0.5 * grip.stiffness * grip.pressed * grip.pressed;
+  pair.heat = 0;
   if (friction == 0) return;
 
   // Coulomb's law with an elastic stick: the spring moves with the face and stretches up to mu F_n / k.
-  grip.stick += step * slip_speed;
+  const Vec3 aside = slip - approach * pair.normal;
+  grip.stick += aside;
   grip.stick -= dot(grip.stick, pair.normal) * pair.normal;
   const double stretch = norm(grip.stick), longest = friction * pressure / grip.stiffness;
-  if (stretch > longest) {
-    pair.heat = friction * pressure * (stretch - longest);
-    grip.stick *= longest / stretch;
-  }
-  pair.force -= grip.stiffness * grip.stick;
+  if (stretch > longest) grip.stick *= longest / stretch;
+  grip.drag = -grip.stiffness * grip.stick;
+  pair.heat = heat_of_drag(old_drag, grip.drag, aside, old_stick_energy, grip.stick_energy());
+  pair.force += grip.drag;
   pair.stored += grip.stick_energy();
 }
 
@@ -66,17 +98,24 @@ void enforce(TouchingPair& pair, const SurfaceContact::Arrays& arrays, double fr
 
 void SurfaceContact::add_force(const Arrays& arrays, double step, int threads) {
   Stages& s = *stages_;
-  const Threads team(threads);
   const double friction = s.settings.friction;
   s.stored = 0;
+  if (friction > 0) {
+    for (const TouchingPair* old : s.ended) {
+      const Vec3 slip = step * slip_speed(*old, arrays.velocity.data());
+      s.heat += heat_of_drag(old->grip.drag, Vec3{}, slip, old->grip.stick_energy(), 0);
+    }
+  }
+  s.ended.clear();
   for (std::vector<TouchingPair>* pairs : {&s.node_touches, &s.edge_touches}) {
-    team.for_each(static_cast<std::int64_t>(pairs->size()), [&](std::int64_t i) {
+    share_out(threads, static_cast<std::int64_t>(pairs->size()), [&](std::int64_t i) {
       TouchingPair& pair = (*pairs)[i];
       enforce(pair, arrays, friction, step);
       if (pair.first_count == 1) s.holds[pair.first].grip = pair.grip;
     });
     // One place and one order for the sums at nodes.
     for (const TouchingPair& pair : *pairs) {
+      if (pair.ignored) continue;
       s.stored += pair.stored;
       s.heat += pair.heat;
       if (pair.stored > 0) {

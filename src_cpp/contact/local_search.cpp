@@ -78,12 +78,6 @@ bool SurfaceContact::Stages::shares_element(Index row, Index segment) const {
   return shares;
 }
 
-bool SurfaceContact::Stages::adjacent(Index segment, Index other) const {
-  const Index *a = surface.corners(segment), *b = surface.corners(other);
-  return std::any_of(a, a + 4,
-                     [&](Index node) { return node != kNone && std::find(b, b + 4, node) != b + 4; });
-}
-
 void SurfaceContact::Stages::look_at_node(const double* x, Index active) {
   const Index row = active_nodes[active];
   Hit& hit = hits[active];
@@ -221,77 +215,25 @@ void SurfaceContact::Stages::look_at_edge(const double* x, Index active) {
   edge_wake[edge] = travel + room;
 }
 
-/// A node that moved on to a neighbouring face of about the same direction takes its springs along.
-void SurfaceContact::Stages::keep_or_start(const double* x, const Hit& hit, TouchingPair& touch) {
-  const Index row = touch.first;
-  Hold& hold = holds[row];
-  const bool same = hold.segment == hit.segment;
-  touch.fresh = !(same || (hold.segment != kNone && adjacent(hold.segment, hit.segment) &&
-                           dot(segment_normal(x, hold.segment), hit.point.normal) > 0.5));
-  if (touch.fresh) {
-    touch.heat = hold.grip.stick_energy();
-    hold.grip = Grip{};
-  }
-  hold.segment = hit.segment;
-  hold.stamp = stamp;
-  touch.grip = hold.grip;
-}
-
-/// Edge pairs that go on touching keep their springs; one that follows on an ended one along a ridge (it has
-/// one of its edges, and the other's neighbour) takes them over.
-void SurfaceContact::Stages::follow_edges() {
-  const auto key = [](const TouchingPair& t) { return std::array<Index, 2>{t.first, t.second}; };
-  const auto neighbours = [&](Index m, Index n) {
-    const Index *a = surface.ends(m), *b = surface.ends(n);
-    return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
-  };
-  ended_edges.clear();
-  std::size_t next = 0;
-  for (TouchingPair& old : old_edge_touches) {
-    while (next < edge_touches.size() && key(edge_touches[next]) < key(old)) ++next;
-    if (next < edge_touches.size() && key(edge_touches[next]) == key(old)) {
-      edge_touches[next].grip = old.grip;
-      edge_touches[next].fresh = false;
-    } else {
-      ended_edges.push_back(&old);
-    }
-  }
-  if (ended_edges.empty()) return;
-  for (TouchingPair& touch : edge_touches) {
-    if (!touch.fresh) continue;
-    const auto before = std::find_if(ended_edges.begin(), ended_edges.end(), [&](const TouchingPair* old) {
-      return dot(old->normal, touch.normal) > 0.5 &&
-             ((old->first == touch.first && neighbours(old->second, touch.second)) ||
-              (old->second == touch.second && neighbours(old->first, touch.first)));
-    });
-    if (before == ended_edges.end()) continue;
-    touch.grip = (*before)->grip;
-    touch.fresh = false;
-    ended_edges.erase(before);
-  }
-  for (const TouchingPair* old : ended_edges) heat += old->grip.stick_energy();
-}
-
 void SurfaceContact::local_search(const Arrays& arrays, int threads) {
   Stages& s = *stages_;
-  const Threads team(threads);
   const double* x = arrays.position.data();
 
   ++s.stamp;
   const std::int64_t faces = static_cast<std::int64_t>(s.active_segments.size());
-  team.for_each(faces, [&](std::int64_t i) {
+  share_out(threads, faces, [&](std::int64_t i) {
     const Index segment = s.active_segments[i];
     s.planes[segment] = s.plane(x, segment);
   });
   const std::int64_t nodes = static_cast<std::int64_t>(s.active_nodes.size());
-  team.for_each(nodes, [&](std::int64_t i) { s.look_at_node(x, static_cast<Index>(i)); });
+  share_out(threads, nodes, [&](std::int64_t i) { s.look_at_node(x, static_cast<Index>(i)); });
   s.hit_nodes.clear();
   for (std::int64_t i = 0; i < nodes; ++i) {
     if (s.hits[i].segment != kNone) s.hit_nodes.push_back(static_cast<Index>(i));
   }
   std::swap(s.node_touches, s.old_node_touches);
   s.node_touches.resize(s.hit_nodes.size());
-  team.for_each(static_cast<std::int64_t>(s.hit_nodes.size()), [&](std::int64_t i) {
+  share_out(threads, static_cast<std::int64_t>(s.hit_nodes.size()), [&](std::int64_t i) {
     const Stages::Hit& hit = s.hits[s.hit_nodes[i]];
     const Index row = s.active_nodes[s.hit_nodes[i]];
     const Index* c = s.surface.corners(hit.segment);
@@ -308,18 +250,18 @@ void SurfaceContact::local_search(const Arrays& arrays, int threads) {
     const Surface::SegmentData& data = s.surface.data(hit.segment);
     touch.stiffness = std::min(data.stiffness, s.surface.node_stiffness(row));
     touch.height = data.height;
-    s.keep_or_start(x, hit, touch);
+    Stages::Hold& hold = s.holds[row];
+    hold.kept = hold.segment == hit.segment;
+    if (hold.kept) {
+      touch.origin = TouchingPair::Origin::same;
+      touch.grip = hold.grip;
+    }
+    hold.segment = hit.segment;
+    hold.stamp = s.stamp;
   });
-  for (const TouchingPair& old : s.old_node_touches) {
-    Stages::Hold& hold = s.holds[old.first];
-    if (hold.stamp == s.stamp) continue;
-    s.heat += hold.grip.stick_energy();
-    hold = Stages::Hold{};
-  }
-  for (const TouchingPair& touch : s.node_touches) s.heat += touch.heat;
 
   const std::int64_t edges = static_cast<std::int64_t>(s.active_edges.size());
-  team.for_each(edges, [&](std::int64_t i) { s.look_at_edge(x, static_cast<Index>(i)); });
+  share_out(threads, edges, [&](std::int64_t i) { s.look_at_edge(x, static_cast<Index>(i)); });
   s.hit_edges.clear();
   for (std::int64_t i = 0; i < edges; ++i) {
     for (const Index partner : s.edge_hits[i]) {
@@ -330,11 +272,11 @@ void SurfaceContact::local_search(const Arrays& arrays, int threads) {
   std::sort(s.hit_edges.begin(), s.hit_edges.end());
   std::swap(s.edge_touches, s.old_edge_touches);
   s.edge_touches.resize(s.hit_edges.size());
-  team.for_each(static_cast<std::int64_t>(s.hit_edges.size()), [&](std::int64_t i) {
+  share_out(threads, static_cast<std::int64_t>(s.hit_edges.size()), [&](std::int64_t i) {
     double room = 0;
     s.edges_touch(x, s.hit_edges[i][0], s.hit_edges[i][1], room, &s.edge_touches[i]);
   });
-  s.follow_edges();
+  s.hand_over();
 }
 
 }  // namespace cdfp

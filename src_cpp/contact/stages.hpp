@@ -16,8 +16,10 @@ namespace cdfp {
 /// Springs of a pair that touches. They last as long as the contact does, across searches.
 struct Grip {
   double stiffness = 0;  ///< N/m, fixed when the pair first touches, lowered only for stability
-  double offset = 0;  ///< m, <= 0: penetration that was there before the pair was seen; it rises with the gap
-  Vec3 stick;         ///< m, stretch of the tangential spring
+  double offset = 0;     ///< m, <= 0: penetration from before the pair was seen; it rises with the gap
+  double pressed = 0;    ///< m, <= 0: gap less offset, what compresses the normal spring
+  Vec3 stick;            ///< m, stretch of the tangential spring
+  Vec3 drag;             ///< N, friction on the first side
   double stick_energy() const { return 0.5 * stiffness * dot(stick, stick); }
 };
 
@@ -27,13 +29,21 @@ struct TouchingPair {
   std::array<double, 5> per_mass{};
   Index first_count = 1, count = 0;
   Index first = kNone, second = kNone;  ///< contact node (row) and segment, or two edges
-  bool fresh = true;
+  enum class Origin { same, moved, fresh } origin = Origin::fresh;  ///< moved: springs come from another pair
+  bool ignored = false;                                             ///< edges only
   double gap = 0, stiffness = 0, height = 0;
   Vec3 normal;
   Grip grip;
   Vec3 force;
   double stored = 0, heat = 0;
 };
+
+/// Over threads where it pays for waking them.
+template <class Body>
+void share_out(int threads, std::int64_t n, Body&& body) {
+  constexpr std::int64_t kWorthwhile = 256;
+  Threads(n < kWorthwhile ? 1 : threads).for_each(n, body);
+}
 
 struct SurfaceContact::Stages {
   explicit Stages(const ContactSettings& s)
@@ -55,6 +65,7 @@ struct SurfaceContact::Stages {
   struct Hold {
     Index segment = kNone;
     std::int32_t stamp = 0;
+    bool kept = false;  // the same segment as a step ago
     Grip grip;
   };
   /// A segment's mean plane, and how far its points may lie from centre and plane.
@@ -65,6 +76,12 @@ struct SurfaceContact::Stages {
   struct Hit {
     Index segment = kNone;
     FacePoint point;
+  };
+  /// A node of each side of a pair.
+  struct Link {
+    std::array<Index, 2> nodes;  // ascending
+    TouchingPair* pair;
+    bool turned;  // the second side's node comes first
   };
   std::vector<Hold> holds;               // by contact node
   std::vector<double> wake;              // by contact node: travel before which it can't touch
@@ -81,7 +98,9 @@ struct SurfaceContact::Stages {
   std::int32_t stamp = 0;
   std::vector<Index> hit_nodes;
   std::vector<std::array<Index, 2>> hit_edges;
-  std::vector<TouchingPair*> ended_edges;
+  std::vector<TouchingPair*> ended;      // in this step's local search
+  std::vector<std::int32_t> ended_here;  // by contact node: the last step in which a pair with it ended
+  std::vector<Link> links;
   std::vector<TouchingPair> node_touches, old_node_touches, edge_touches, old_edge_touches;
 
   double heat = 0, stored = 0, deepest = 0;
@@ -101,12 +120,10 @@ struct SurfaceContact::Stages {
   FacePoint project(const double* x, Vec3 p, Index segment) const;
   Vec3 node_normal(const double* x, Index row) const;
   bool shares_element(Index row, Index segment) const;
-  bool adjacent(Index segment, Index other) const;
   void look_at_node(const double* x, Index active);
   bool edges_touch(const double* x, Index m, Index n, double& room, TouchingPair* touch) const;
   void look_at_edge(const double* x, Index active);
-  void follow_edges();
-  void keep_or_start(const double* x, const Hit& hit, TouchingPair& touch);
+  void hand_over();
 };
 
 }  // namespace cdfp

@@ -17,6 +17,7 @@ constexpr std::int64_t kSpeedGrain = 4096;
 void SurfaceContact::Stages::grow_to_surface() {
   holds.resize(surface.node_count());
   wake.resize(surface.node_count(), 0);
+  ended_here.resize(surface.node_count(), 0);
   has_pairs.resize(surface.node_count(), 0);
   is_partner.resize(surface.segment_count(), 0);
   planes.resize(surface.segment_count());
