@@ -1,7 +1,6 @@
 #include "output/canvas.hpp"
 
 #include <cairo-svg.h>
-#include <cairo.h>
 
 #include <memory>
 

@@ -2,14 +2,14 @@
 /// SVG.
 #pragma once
 
+#include <cairo.h>
+
 #include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
 
 #include "output/colours.hpp"
-
-struct _cairo;
 
 namespace cdfp {
 
@@ -35,7 +35,7 @@ struct TextStyle {
 
 class Canvas {
  public:
-  explicit Canvas(_cairo* context) : context_(context) {}
+  explicit Canvas(cairo_t* context) : context_(context) {}
 
   void fill(const Box& box, Colour colour);
   void fill(std::span<const Point> polygon, Colour colour);
@@ -58,7 +58,7 @@ class Canvas {
   void use(Colour colour);
   void select(const TextStyle& style);
 
-  _cairo* context_;
+  cairo_t* context_;
 };
 
 using Drawing = std::function<void(Canvas&)>;

@@ -59,6 +59,7 @@ Extent extent_of(const std::vector<Point>& points) {
 
 std::vector<Point> Window::place(const std::vector<Point>& points) const {
   std::vector<Point> placed;
+  placed.reserve(points.size());
   for (const Point& p : points) placed.push_back(place(p));
   return placed;
 }
@@ -66,6 +67,7 @@ std::vector<Point> Window::place(const std::vector<Point>& points) const {
 void draw_facets(Canvas& canvas, const Window& window, const std::vector<Copy>& copies,
                  const std::vector<SeenFacet>& facets) {
   std::vector<const SeenFacet*> order;
+  order.reserve(facets.size());
   for (const SeenFacet& facet : facets) order.push_back(&facet);
   std::stable_sort(order.begin(), order.end(), [](const SeenFacet* a, const SeenFacet* b) {
     return a->edge_on() != b->edge_on() ? b->edge_on() : a->damage < b->damage;

@@ -48,8 +48,8 @@ void draw_crack_picture(const std::filesystem::path& path, const CrackPicture& p
                                           : "seen from above, all layers",
                 {.size = 23, .colour = soft_ink});
     for (std::size_t i = 0; i < picture.panels.size(); ++i) {
-      const double column = static_cast<double>(i % grid.columns),
-                   row = static_cast<double>(i / grid.columns);
+      const std::size_t row_number = i / grid.columns;
+      const double column = static_cast<double>(i % grid.columns), row = static_cast<double>(row_number);
       const Box box{side + column * (panel_width + gap_across), header + row * row_height + panel_title,
                     panel_width, panel_height};
       draw_panel(canvas, {extent.low, box, scale}, picture, picture.panels[i]);

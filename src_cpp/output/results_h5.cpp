@@ -107,6 +107,7 @@ void write_history(hid_t file, const History& history) {
 
 void write_names(hid_t parent, const std::vector<std::string>& names) {
   std::vector<const char*> texts;
+  texts.reserve(names.size());
   for (const std::string& name : names) texts.push_back(name.c_str());
   const Handle type = text_type();
   const hsize_t extent = texts.size();
