@@ -20,7 +20,7 @@ struct Waiting {
   std::uint32_t key;  ///< from the lowest node's two neighbours on the facet
 };
 
-std::uint32_t neighbours_key(const ElementView& element, std::span<const std::int8_t> facet,
+std::uint32_t neighbours_key(const ElementView& element, std::span<const ElementTemplate::Byte> facet,
                              std::size_t low) {
   const std::size_t n = facet.size();
   const auto p = static_cast<std::uint32_t>(element.nodes[facet[low + 1 == n ? 0 : low + 1]]);

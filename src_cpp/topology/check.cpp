@@ -102,7 +102,7 @@ std::string check_nodes(const TopologyStore& store) {
 
 std::string check(const TopologyStore& store) {
   for (const auto& relation : {check_corners, check_mates, check_nodes}) {
-    const std::string violation = relation(store);
+    std::string violation = relation(store);
     if (!violation.empty()) return violation;
   }
   return {};

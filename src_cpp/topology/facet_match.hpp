@@ -8,7 +8,7 @@
 namespace cdfp {
 
 /// Where the lowest node stands on the facet.
-inline std::size_t lowest(const ElementView& element, std::span<const std::int8_t> facet) {
+inline std::size_t lowest(const ElementView& element, std::span<const ElementTemplate::Byte> facet) {
   std::size_t low = 0;
   for (std::size_t i = 1; i < facet.size(); ++i) {
     if (element.nodes[facet[i]] < element.nodes[facet[low]]) low = i;

@@ -18,9 +18,10 @@ inline constexpr int kMaxCorners = 8;
 inline constexpr int kMaxFacets = 6;
 inline constexpr int kMaxEdges = 12;
 inline constexpr int kMaxAtCorner = 4;  ///< facets, or edges, that meet at one corner
+inline constexpr std::uint8_t kNoLocal = 255;
 
 struct ElementTemplate {
-  using Byte = std::int8_t;
+  using Byte = std::uint8_t;
 
   Byte corner_count = 0;
   Byte facet_count = 0;
@@ -69,13 +70,13 @@ constexpr ElementTemplate make_template(int corner_count, std::initializer_list<
     t.edges[e++] = {static_cast<Byte>(*edge.begin()), static_cast<Byte>(*(edge.begin() + 1))};
   }
 
-  for (auto& sides : t.edge_facets) sides = {-1, -1};
+  for (auto& sides : t.edge_facets) sides = {kNoLocal, kNoLocal};
   for (f = 0; f < facets.size(); ++f) {
     const std::size_t n = static_cast<std::size_t>(t.facet_size[f]);
     for (std::size_t i = 0; i < n; ++i) {
       const Byte a = t.facets[f][i];
       const Byte b = t.facets[f][(i + 1) % n];
-      t.facet_edges[f][i] = -1;
+      t.facet_edges[f][i] = kNoLocal;
       for (e = 0; e < edges.size(); ++e) {
         const bool along = t.edges[e][0] == a && t.edges[e][1] == b;
         const bool against = t.edges[e][0] == b && t.edges[e][1] == a;
@@ -91,7 +92,7 @@ constexpr ElementTemplate make_template(int corner_count, std::initializer_list<
   if (cohesive) {
     for (auto& sides : t.edge_facets) {
       for (std::size_t s = 0; s < 2; ++s) {
-        if (sides[s] < 0 && sides[1 - s] >= 0) sides[s] = static_cast<Byte>(1 - sides[1 - s]);
+        if (sides[s] == kNoLocal && sides[1 - s] != kNoLocal) sides[s] = static_cast<Byte>(1 - sides[1 - s]);
       }
     }
   }
@@ -140,11 +141,11 @@ constexpr bool is_sound(const ElementTemplate& t) {
   std::size_t sides = 0;
   for (std::size_t f = 0; f < static_cast<std::size_t>(t.facet_count); ++f) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(t.facet_size[f]); ++i, ++sides) {
-      if (t.facet_edges[f][i] < 0) return false;
+      if (t.facet_edges[f][i] == kNoLocal) return false;
     }
   }
   for (std::size_t e = 0; e < static_cast<std::size_t>(t.edge_count); ++e) {
-    if (t.edge_facets[e][0] < 0 || t.edge_facets[e][1] < 0) return false;
+    if (t.edge_facets[e][0] == kNoLocal || t.edge_facets[e][1] == kNoLocal) return false;
   }
   if (t.cohesive) return sides == static_cast<std::size_t>(t.edge_count);
   return t.corner_count - t.edge_count + t.facet_count == 2 &&

@@ -175,7 +175,8 @@ TEST_P(Queries, AroundANode) {
     std::map<Index, std::vector<FacetUse>> facets;
     std::set<Index> boundary;
     cut.topology.for_each_facet([&](FacetUse use) {
-      for (const Index node : cut.topology.facet_nodes(use).view()) {
+      const FacetNodes nodes = cut.topology.facet_nodes(use);
+      for (const Index node : nodes.view()) {
         facets[node].push_back(use);
         if (cut.topology.is_boundary(use)) boundary.insert(node);
       }
