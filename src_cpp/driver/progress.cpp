@@ -32,7 +32,7 @@ Progress::Progress()
       last_shown_(Clock::now()) {}
 
 Progress::~Progress() {
-  if (terminal_) std::fputc('\n', stderr);
+  if (terminal_ && shown_) std::fputc('\n', stderr);
 }
 
 void Progress::show_if_due(const Simulation& simulation) {
@@ -43,6 +43,7 @@ void Progress::show_if_due(const Simulation& simulation) {
 }
 
 void Progress::show(const Simulation& simulation) {
+  shown_ = true;
   const std::string left = time_left(simulation);
   std::string element;
   if (simulation.controlling_element() != kNone) {

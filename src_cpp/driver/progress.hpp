@@ -25,6 +25,7 @@ class Progress {
   std::string time_left(const Simulation& simulation);
 
   bool terminal_;
+  bool shown_ = false;
   Clock::duration interval_;
   Clock::time_point next_;
   Clock::time_point last_shown_;

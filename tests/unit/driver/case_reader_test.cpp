@@ -241,6 +241,20 @@ TEST(CaseReader, PassesSyntaxErrorsOnWithPlace) {
   expect_refused(with("density = 2500", "density = 2500\ndensity = 2600"), "plate.toml:13:");
 }
 
+TEST(CaseReader, ReadsTheExamples) {
+  const Model full = read_case(CDFP_EXAMPLES "/laminated_glass/case.toml");
+  EXPECT_TRUE(check_model(full).empty());
+  EXPECT_NEAR(full.mesh.element_count(), 47088, 0.01 * 47088);
+  EXPECT_EQ(full.time.end / full.time.fixed_step, 10000);
+  EXPECT_EQ(full.rigid_bodies[0].mass, 35.5e-3 / 4);
+  EXPECT_EQ(full.rigid_bodies[0].velocity, (std::array{0.0, 0.0, -6.78}));
+  const Model quick = read_case(CDFP_EXAMPLES "/laminated_glass/case_quick.toml");
+  EXPECT_TRUE(check_model(quick).empty());
+  EXPECT_LT(quick.mesh.element_count(), 10000);
+  ASSERT_EQ(quick.materials.size(), full.materials.size());
+  EXPECT_EQ(quick.cohesive_laws[0].strength, full.cohesive_laws[0].strength);
+}
+
 TEST(CaseReader, SaysWhenTheFileCannotBeRead) {
   for (const char* path : {"/nowhere/case.toml", "/tmp"}) {
     try {

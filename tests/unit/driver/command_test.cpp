@@ -1,0 +1,113 @@
+// The command as a user meets it: exit codes, messages, files after Ctrl-C.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents(const fs::path& path) {
+  std::ifstream stream(path);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+class Command : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("cdfp_command_test_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// A copy of the quick case with one piece of its text changed.
+  fs::path case_with(const std::string& from, const std::string& to) const {
+    std::string text = contents(CDFP_EXAMPLES "/laminated_glass/case_quick.toml");
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    const fs::path path = folder_ / "case.toml";
+    std::ofstream(path) << text.replace(at, from.size(), to);
+    return path;
+  }
+
+  pid_t start(const std::vector<std::string>& arguments) const {
+    const pid_t child = fork();
+    if (child != 0) return child;
+    std::vector<std::string> words{CDFP_COMMAND};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> raw;
+    for (std::string& word : words) raw.push_back(word.data());
+    raw.push_back(nullptr);
+    const bool redirected = std::freopen((folder_ / "stdout").c_str(), "w", stdout) &&
+                            std::freopen((folder_ / "stderr").c_str(), "w", stderr);
+    if (redirected) execv(raw[0], raw.data());
+    _exit(127);
+  }
+
+  static int wait_for(pid_t child) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+
+  int run(const std::vector<std::string>& arguments) const { return wait_for(start(arguments)); }
+  std::string out() const { return contents(folder_ / "stdout"); }
+  std::string err() const { return contents(folder_ / "stderr"); }
+
+  fs::path folder_;
+};
+
+TEST_F(Command, TellsItsVersion) {
+  EXPECT_EQ(run({"--version"}), 0);
+  EXPECT_EQ(out().rfind("cdfp ", 0), 0u) << out();
+}
+
+TEST_F(Command, RefusesWrongUse) {
+  EXPECT_EQ(run({}), 2);
+  EXPECT_EQ(run({"run"}), 2);
+  EXPECT_EQ(run({"run", "x.toml", "--threads", "0"}), 2);
+  EXPECT_EQ(run({"run", "x.toml", "--treads", "2"}), 2);
+  EXPECT_NE(err().find("--treads"), std::string::npos) << err();
+}
+
+TEST_F(Command, TellsWhereACaseIsWrong) {
+  const fs::path path = case_with("youngs_modulus", "young_modulus");
+  EXPECT_EQ(run({"check", path}), 1);
+  EXPECT_EQ(err().rfind("cdfp: error: " + path.string() + ":", 0), 0u) << err();
+  EXPECT_NE(err().find("unknown key 'young_modulus'"), std::string::npos) << err();
+  EXPECT_EQ(run({"run", path, "--out", folder_ / "results"}), 1);
+  EXPECT_FALSE(fs::exists(folder_ / "results")) << "a case that cannot run leaves no folder";
+}
+
+TEST_F(Command, ChecksTheExamples) {
+  EXPECT_EQ(run({"check", CDFP_EXAMPLES "/laminated_glass/case_quick.toml"}), 0);
+  EXPECT_NE(out().find("8448 elements"), std::string::npos) << out();
+}
+
+TEST_F(Command, EndsCleanlyWhenInterrupted) {
+  const fs::path results = folder_ / "results";
+  const fs::path path = case_with("end = 80e-6", "end = 1.0");
+  const pid_t child = start({"run", path, "--out", results, "--threads", "1"});
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+  while (!fs::exists(results / "results.pvd") && std::chrono::steady_clock::now() < give_up) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  kill(child, SIGINT);
+  EXPECT_EQ(wait_for(child), 130) << err();
+  EXPECT_NE(out().find("wall time"), std::string::npos) << out();
+  EXPECT_NE(contents(results / "summary.json").find("\"steps\""), std::string::npos);
+  EXPECT_GT(contents(results / "history.csv").size(), 100u);
+}
+
+}  // namespace
