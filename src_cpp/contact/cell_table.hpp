@@ -27,8 +27,8 @@ struct BoxEntry {
 };
 
 inline bool overlap(const Corner& low_a, const Corner& high_a, const Corner& low_b, const Corner& high_b) {
-  return (low_a[0] <= high_b[0]) & (low_b[0] <= high_a[0]) & (low_a[1] <= high_b[1]) &
-         (low_b[1] <= high_a[1]) & (low_a[2] <= high_b[2]) & (low_b[2] <= high_a[2]);
+  return low_a[0] <= high_b[0] && low_b[0] <= high_a[0] && low_a[1] <= high_b[1] && low_b[1] <= high_a[1] &&
+         low_a[2] <= high_b[2] && low_b[2] <= high_a[2];
 }
 
 /// Cells of one length over a box of space; what lies outside counts to the border cells. If the space has
