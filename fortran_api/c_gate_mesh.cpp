@@ -42,21 +42,21 @@ int32_t cdfp_laminated_plate_default(cdfp_laminated_plate* plate) {
   return guarded(__func__, [&] {
     need(plate, "plate");
     const LaminatedPlate d;
-    *plate = {d.half_width,
-              d.lower_glass,
-              d.pvb,
-              d.upper_glass,
-              d.support,
-              d.lower_layers,
-              d.pvb_layers,
-              d.upper_layers,
-              d.support_layers,
-              d.columns,
-              static_cast<int32_t>(d.layout),
-              d.impactor_radius,
-              d.impactor_shaft,
-              d.impactor_gap,
-              d.impactor_refinement};
+    *plate = {.half_width = d.half_width,
+              .lower_glass = d.lower_glass,
+              .pvb = d.pvb,
+              .upper_glass = d.upper_glass,
+              .support = d.support,
+              .lower_layers = d.lower_layers,
+              .pvb_layers = d.pvb_layers,
+              .upper_layers = d.upper_layers,
+              .support_layers = d.support_layers,
+              .columns = d.columns,
+              .layout = static_cast<int32_t>(d.layout),
+              .impactor_radius = d.impactor_radius,
+              .impactor_shaft = d.impactor_shaft,
+              .impactor_gap = d.impactor_gap,
+              .impactor_refinement = d.impactor_refinement};
   });
 }
 

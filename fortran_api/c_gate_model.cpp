@@ -88,7 +88,9 @@ int32_t cdfp_model_add_elastic_material(cdfp_model* model, const char* name, dou
                                         double youngs_modulus, double poissons_ratio) {
   return guarded(__func__, [&] {
     Change(model)->materials.push_back(
-        {name_of(name, "name"), ElasticMaterial{density, youngs_modulus, poissons_ratio}});
+        {name_of(name, "name"),
+         ElasticMaterial{
+             .density = density, .youngs_modulus = youngs_modulus, .poissons_ratio = poissons_ratio}});
   });
 }
 
@@ -98,8 +100,12 @@ int32_t cdfp_model_add_rate_dependent_material(cdfp_model* model, const char* na
                                                double smoothing_time) {
   return guarded(__func__, [&] {
     Change(model)->materials.push_back(
-        {name_of(name, "name"), RateDependentMaterial{density, poissons_ratio, static_modulus, rate_modulus,
-                                                      rate_exponent, smoothing_time}});
+        {name_of(name, "name"), RateDependentMaterial{.density = density,
+                                                      .poissons_ratio = poissons_ratio,
+                                                      .static_modulus = static_modulus,
+                                                      .rate_modulus = rate_modulus,
+                                                      .rate_exponent = rate_exponent,
+                                                      .smoothing_time = smoothing_time}});
   });
 }
 
@@ -107,16 +113,38 @@ int32_t cdfp_model_add_rigid_material(cdfp_model* model, const char* name, doubl
                                       double youngs_modulus, double poissons_ratio) {
   return guarded(__func__, [&] {
     Change(model)->materials.push_back(
-        {name_of(name, "name"), RigidMaterial{density, youngs_modulus, poissons_ratio}});
+        {name_of(name, "name"),
+         RigidMaterial{
+             .density = density, .youngs_modulus = youngs_modulus, .poissons_ratio = poissons_ratio}});
   });
 }
 
-int32_t cdfp_model_add_cohesive_law(cdfp_model* model, const char* name, double strength,
-                                    double fracture_energy, double mode_ratio, double shear_ratio,
-                                    double friction, double friction_exponent) {
+int32_t cdfp_cohesive_law_default(cdfp_cohesive_law* law) {
   return guarded(__func__, [&] {
-    Change(model)->cohesive_laws.push_back({name_of(name, "name"), strength, fracture_energy, mode_ratio,
-                                            shear_ratio, friction, friction_exponent});
+    need(law, "law");
+    const CohesiveLaw d;
+    *law = {.strength = d.strength,
+            .fracture_energy = d.fracture_energy,
+            .mode_ratio = d.mode_ratio,
+            .shear_ratio = d.shear_ratio,
+            .friction = d.friction,
+            .friction_exponent = d.friction_exponent,
+            .internal_friction = d.internal_friction};
+  });
+}
+
+int32_t cdfp_model_add_cohesive_law(cdfp_model* model, const char* name, const cdfp_cohesive_law* law) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    need(law, "law");
+    m->cohesive_laws.push_back({.name = name_of(name, "name"),
+                                .strength = law->strength,
+                                .fracture_energy = law->fracture_energy,
+                                .mode_ratio = law->mode_ratio,
+                                .shear_ratio = law->shear_ratio,
+                                .friction = law->friction,
+                                .friction_exponent = law->friction_exponent,
+                                .internal_friction = law->internal_friction});
   });
 }
 
@@ -127,8 +155,11 @@ int32_t cdfp_model_add_part(cdfp_model* model, const char* name, const char* mat
     if (formulation != CDFP_ONE_POINT && formulation != CDFP_FULL) {
       refuse("formulation is " + std::to_string(formulation) + "; take CDFP_ONE_POINT or CDFP_FULL");
     }
-    Part part{name_of(name, "name"), name_of(material, "material"), static_cast<Formulation>(formulation),
-              hourglass, cohesive_law ? cohesive_law : ""};
+    Part part{.name = name_of(name, "name"),
+              .material = name_of(material, "material"),
+              .formulation = static_cast<Formulation>(formulation),
+              .hourglass = hourglass,
+              .cohesive_law = cohesive_law ? cohesive_law : ""};
     m->mesh.part_names.push_back(part.name);
     m->parts.push_back(std::move(part));
   });
@@ -202,8 +233,13 @@ int32_t cdfp_model_get_contact(const cdfp_model* model, cdfp_contact_settings* s
     const Look m(model);
     need(settings, "settings");
     const ContactSettings& c = m->contact;
-    *settings = {c.cell_factor, c.buffer_factor, c.penalty_factor, c.friction,
-                 c.depth_limit, c.edge_edge,     c.adaptive};
+    *settings = {.cell_factor = c.cell_factor,
+                 .buffer_factor = c.buffer_factor,
+                 .penalty_factor = c.penalty_factor,
+                 .friction = c.friction,
+                 .depth_limit = c.depth_limit,
+                 .edge_edge = c.edge_edge,
+                 .adaptive = c.adaptive};
   });
 }
 

@@ -153,12 +153,18 @@ int32_t cdfp_simulation_energies(const cdfp_simulation* simulation, cdfp_energie
     const Look s(simulation);
     need(energies, "energies");
     const Energies e = s->energies();
-    *energies = {e.kinetic,           e.strain,
-                 e.hourglass,         e.material_dissipated,
-                 e.cohesive_stored,   e.cohesive_dissipated,
-                 e.cohesive_friction, e.contact_stored,
-                 e.contact_friction,  e.external_work,
-                 e.initial,           e.balance()};
+    *energies = {.kinetic = e.kinetic,
+                 .strain = e.strain,
+                 .hourglass = e.hourglass,
+                 .material_dissipated = e.material_dissipated,
+                 .cohesive_stored = e.cohesive_stored,
+                 .cohesive_dissipated = e.cohesive_dissipated,
+                 .cohesive_friction = e.cohesive_friction,
+                 .contact_stored = e.contact_stored,
+                 .contact_friction = e.contact_friction,
+                 .external_work = e.external_work,
+                 .initial = e.initial,
+                 .balance = e.balance()};
   });
 }
 
@@ -167,30 +173,30 @@ int32_t cdfp_simulation_summary(const cdfp_simulation* simulation, cdfp_summary*
     const Look sim(simulation);
     need(summary, "summary");
     const Summary s = sim->summary();
-    *summary = {s.elements,
-                s.nodes_initial,
-                s.nodes_final,
-                s.segments_initial,
-                s.segments_final,
-                s.steps,
-                s.threads,
-                s.dt_element,
-                s.cohesive_inserted,
-                s.cohesive_broken,
-                s.simulated_time_s,
-                s.dt_s,
-                s.dt_stable_s,
-                s.wall_s,
-                s.peak_rss_mb,
-                s.energy_balance_min,
-                s.energy_balance_max,
-                s.hourglass_over_strain_max,
-                s.cohesive_dissipated_over_ga,
-                s.first_contact_s,
-                s.peak_force_n,
-                s.peak_force_time_s,
-                s.impactor_rebound_mps,
-                s.deepest_penetration_m};
+    *summary = {.elements = s.elements,
+                .nodes_initial = s.nodes_initial,
+                .nodes_final = s.nodes_final,
+                .segments_initial = s.segments_initial,
+                .segments_final = s.segments_final,
+                .steps = s.steps,
+                .threads = s.threads,
+                .dt_element = s.dt_element,
+                .cohesive_inserted = s.cohesive_inserted,
+                .cohesive_broken = s.cohesive_broken,
+                .simulated_time_s = s.simulated_time_s,
+                .dt_s = s.dt_s,
+                .dt_stable_s = s.dt_stable_s,
+                .wall_s = s.wall_s,
+                .peak_rss_mb = s.peak_rss_mb,
+                .energy_balance_min = s.energy_balance_min,
+                .energy_balance_max = s.energy_balance_max,
+                .hourglass_over_strain_max = s.hourglass_over_strain_max,
+                .cohesive_dissipated_over_ga = s.cohesive_dissipated_over_ga,
+                .first_contact_s = s.first_contact_s,
+                .peak_force_n = s.peak_force_n,
+                .peak_force_time_s = s.peak_force_time_s,
+                .impactor_rebound_mps = s.impactor_rebound_mps,
+                .deepest_penetration_m = s.deepest_penetration_m};
   });
 }
 

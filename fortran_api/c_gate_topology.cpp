@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "c_gate.hpp"
@@ -26,22 +27,9 @@ void need_facet(const Topology& topology, int32_t element, int32_t facet) {
   need_number(facet, topology.facet_count(element), "facet");
 }
 
-int32_t edge_count(ElementType type) {
-  switch (type) {
-    case ElementType::hexahedron:
-      return 12;
-    case ElementType::tetrahedron:
-      return 6;
-    case ElementType::wedge:
-      return 9;
-    case ElementType::pyramid:
-      return 8;
-    case ElementType::cohesive_quadrilateral:
-      return 8;
-    case ElementType::cohesive_triangle:
-      return 6;
-  }
-  return 0;
+void need_edge(const Topology& topology, int32_t element, int32_t edge) {
+  need_element(topology, element);
+  need_number(edge, topology.edge_count(element), "edge");
 }
 
 /// As many pairs as there is room for; `count` is that of all.
@@ -143,6 +131,15 @@ int32_t cdfp_topology_facet_count(const cdfp_topology* topology, int32_t element
   });
 }
 
+int32_t cdfp_topology_edge_count(const cdfp_topology* topology, int32_t element, int64_t* edges) {
+  return guarded(__func__, [&] {
+    const Look t(topology);
+    need(edges, "edges");
+    need_element(t->topology, element);
+    *edges = t->topology.edge_count(element);
+  });
+}
+
 int32_t cdfp_topology_mate(const cdfp_topology* topology, int32_t element, int32_t facet,
                            int32_t* mate_element, int32_t* mate_facet) {
   return guarded(__func__, [&] {
@@ -169,14 +166,24 @@ int32_t cdfp_topology_facet_nodes(const cdfp_topology* topology, int32_t element
   });
 }
 
+int32_t cdfp_topology_edge_nodes(const cdfp_topology* topology, int32_t element, int32_t edge,
+                                 int32_t* nodes) {
+  return guarded(__func__, [&] {
+    const Look t(topology);
+    need(nodes, "nodes");
+    need_edge(t->topology, element, edge);
+    const std::array<Index, 2> ends = t->topology.edge_nodes({element, edge});
+    std::copy_n(ends.begin(), 2, nodes);
+  });
+}
+
 int32_t cdfp_topology_elements_around_edge(const cdfp_topology* topology, int32_t element, int32_t edge,
                                            int64_t capacity, int32_t* uses, int64_t* count) {
   return guarded(__func__, [&] {
     const Look t(topology);
     need(count, "count");
     need_array(uses, capacity, "uses");
-    need_element(t->topology, element);
-    need_number(edge, edge_count(t->topology.type(element)), "edge");
+    need_edge(t->topology, element, edge);
     std::vector<EdgeUse> found;
     t->topology.elements_around({element, edge}, found);
     put_pairs(found, &EdgeUse::edge, capacity, uses, count);

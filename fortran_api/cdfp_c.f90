@@ -21,6 +21,11 @@ module cdfp_c
     real(c_double) :: impactor_radius, impactor_shaft, impactor_gap, impactor_refinement
   end type
 
+  type, bind(c) :: cdfp_cohesive_law
+    real(c_double) :: strength, fracture_energy, mode_ratio, shear_ratio, friction, friction_exponent
+    real(c_double) :: internal_friction
+  end type
+
   type, bind(c) :: cdfp_contact_settings
     real(c_double) :: cell_factor, buffer_factor, penalty_factor, friction, depth_limit
     integer(c_int32_t) :: edge_edge, adaptive
@@ -235,13 +240,17 @@ module cdfp_c
       integer(c_int32_t) :: status
     end function
 
-    function cdfp_model_add_cohesive_law(model, name, strength, fracture_energy, mode_ratio, shear_ratio, &
-        friction, friction_exponent) bind(c) result(status)
+    function cdfp_cohesive_law_default(law) bind(c) result(status)
+      import
+      type(cdfp_cohesive_law), intent(inout) :: law
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_model_add_cohesive_law(model, name, law) bind(c) result(status)
       import
       type(c_ptr), value :: model
       character(kind=c_char), intent(in) :: name(*)
-      real(c_double), value :: strength, fracture_energy, mode_ratio, shear_ratio, friction, &
-        friction_exponent
+      type(cdfp_cohesive_law), intent(in) :: law
       integer(c_int32_t) :: status
     end function
 
@@ -638,6 +647,14 @@ module cdfp_c
       integer(c_int32_t) :: status
     end function
 
+    function cdfp_topology_edge_count(topology, element, edges) bind(c) result(status)
+      import
+      type(c_ptr), value :: topology
+      integer(c_int32_t), value :: element
+      integer(c_int64_t), intent(inout) :: edges
+      integer(c_int32_t) :: status
+    end function
+
     function cdfp_topology_mate(topology, element, facet, mate_element, mate_facet) bind(c) result(status)
       import
       type(c_ptr), value :: topology
@@ -652,6 +669,14 @@ module cdfp_c
       integer(c_int32_t), value :: element, facet
       integer(c_int32_t), intent(inout) :: nodes(*)
       integer(c_int64_t), intent(inout) :: count
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_topology_edge_nodes(topology, element, edge, nodes) bind(c) result(status)
+      import
+      type(c_ptr), value :: topology
+      integer(c_int32_t), value :: element, edge
+      integer(c_int32_t), intent(inout) :: nodes(*)
       integer(c_int32_t) :: status
     end function
 

@@ -172,22 +172,31 @@ contains
                                               poissons_ratio), stat, errmsg)
   end subroutine
 
-  !> Extrinsic cohesive law: G_I, G_II / G_I (1 if absent), peak shear over strength (1), Coulomb coefficient
-  !> between closed faces (0), exponent of its growth with damage (1).
+  !> Extrinsic cohesive law: strength (Pa), G_I (J/m2), G_II / G_I (1 if absent), peak shear over strength
+  !> (1), Coulomb coefficient between closed faces (0), exponent of its growth with damage (1), share of a
+  !> pressure that holds the shear on a facet back (0).
   subroutine add_cohesive_law(this, name, strength, fracture_energy, mode_ratio, shear_ratio, friction, &
-                              friction_exponent, stat, errmsg)
+                              friction_exponent, internal_friction, stat, errmsg)
     class(cdfp_model), intent(in) :: this
     character(len=*), intent(in) :: name
     real(c_double), intent(in) :: strength, fracture_energy
     real(c_double), intent(in), optional :: mode_ratio, shear_ratio, friction, friction_exponent
+    real(c_double), intent(in), optional :: internal_friction
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
+    type(cdfp_cohesive_law) :: law
+    integer(c_int32_t) :: status
 
-    call report(cdfp_model_add_cohesive_law(this%handle%address, c_text(name), strength, fracture_energy, &
-                                            value_or(1.0_c_double, mode_ratio), &
-                                            value_or(1.0_c_double, shear_ratio), &
-                                            value_or(0.0_c_double, friction), &
-                                            value_or(1.0_c_double, friction_exponent)), stat, errmsg)
+    status = cdfp_cohesive_law_default(law)
+    law%strength = strength
+    law%fracture_energy = fracture_energy
+    law%mode_ratio = value_or(law%mode_ratio, mode_ratio)
+    law%shear_ratio = value_or(law%shear_ratio, shear_ratio)
+    law%friction = value_or(law%friction, friction)
+    law%friction_exponent = value_or(law%friction_exponent, friction_exponent)
+    law%internal_friction = value_or(law%internal_friction, internal_friction)
+    status = cdfp_model_add_cohesive_law(this%handle%address, c_text(name), law)
+    call report(status, stat, errmsg)
   end subroutine
 
   !> The first part added is number 1 of the mesh's `parts`. `formulation`: CDFP_ONE_POINT (if absent) or

@@ -7,7 +7,8 @@ module cdfp_topologies
   private
   public :: cdfp_topology, assignment(=)
 
-  !> Numbers of nodes, elements, local facets, edges and corners count from 1; 0 is "none".
+  !> Numbers of nodes, elements, local facets, edges and corners count from 1; 0 is "none". Local facets and
+  !> edges come in the order of cdfp/topology.hpp.
   type :: cdfp_topology
     type(counted_handle) :: handle
   contains
@@ -22,7 +23,9 @@ module cdfp_topologies
     procedure :: get_nodes
     procedure :: facet_count
     procedure :: get_mate
+    procedure :: edge_count
     procedure :: get_facet_nodes
+    procedure :: get_edge_nodes
     procedure :: get_elements_around_edge
     procedure :: get_elements_around_node
     procedure :: insert_cohesive
@@ -159,6 +162,19 @@ contains
     facets = int(count)
   end function
 
+  function edge_count(this, element, stat, errmsg) result(edges)
+    class(cdfp_topology), intent(in) :: this
+    integer(c_int32_t), intent(in) :: element
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer :: edges
+    integer(c_int64_t) :: count
+
+    count = 0
+    call report(cdfp_topology_edge_count(this%handle%address, element - 1_c_int32_t, count), stat, errmsg)
+    edges = int(count)
+  end function
+
   !> The facet on the other side, of a cohesive element if one stands between: 0 and 0 at the boundary. Facet
   !> 1 of a cohesive element is its upper face, facet 2 its lower face.
   subroutine get_mate(this, element, facet, mate_element, mate_facet, stat, errmsg)
@@ -190,6 +206,20 @@ contains
                                        corners, count)
     if (status == CDFP_OK) nodes = corners(:count) + 1_c_int32_t
     call report(status, stat, errmsg)
+  end subroutine
+
+  subroutine get_edge_nodes(this, element, edge, nodes, stat, errmsg)
+    class(cdfp_topology), intent(in) :: this
+    integer(c_int32_t), intent(in) :: element, edge
+    integer(c_int32_t), intent(out) :: nodes(2)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: ends(2)
+
+    ends = -1
+    call report(cdfp_topology_edge_nodes(this%handle%address, element - 1_c_int32_t, edge - 1_c_int32_t, &
+                                         ends), stat, errmsg)
+    nodes = ends + 1_c_int32_t
   end subroutine
 
   !> (2, n): element and its local edge, in cyclic order around the edge.

@@ -140,11 +140,19 @@ int32_t cdfp_model_add_rate_dependent_material(cdfp_model* model, const char* na
 int32_t cdfp_model_add_rigid_material(cdfp_model* model, const char* name, double density,
                                       double youngs_modulus, double poissons_ratio);
 
-/** Extrinsic cohesive law: strength (Pa), G_I (J/m2), G_II / G_I, peak shear over strength, Coulomb
- *  coefficient between closed faces, exponent of its growth with damage. */
-int32_t cdfp_model_add_cohesive_law(cdfp_model* model, const char* name, double strength,
-                                    double fracture_energy, double mode_ratio, double shear_ratio,
-                                    double friction, double friction_exponent);
+/** Extrinsic cohesive law: fill it by `cdfp_cohesive_law_default`, then give strength and fracture energy. */
+typedef struct cdfp_cohesive_law {
+  double strength;          /**< Pa */
+  double fracture_energy;   /**< G_I, J/m2 */
+  double mode_ratio;        /**< G_II / G_I */
+  double shear_ratio;       /**< peak shear over strength */
+  double friction;          /**< Coulomb coefficient between closed faces */
+  double friction_exponent; /**< of the growth of friction with damage */
+  double internal_friction; /**< share of a pressure that holds the shear on a facet back */
+} cdfp_cohesive_law;
+
+int32_t cdfp_cohesive_law_default(cdfp_cohesive_law* law);
+int32_t cdfp_model_add_cohesive_law(cdfp_model* model, const char* name, const cdfp_cohesive_law* law);
 
 /** The first part added is number 0 of the mesh's `parts`. `cohesive_law` may be NULL or empty: does not
  *  crack. `hourglass`: share of the assumed-strain stiffness (CDFP_ONE_POINT). */
@@ -331,6 +339,7 @@ int32_t cdfp_topology_element_type(const cdfp_topology* topology, int32_t elemen
 int32_t cdfp_topology_element_nodes(const cdfp_topology* topology, int32_t element, const int32_t** nodes,
                                     int64_t* count);
 int32_t cdfp_topology_facet_count(const cdfp_topology* topology, int32_t element, int64_t* facets);
+int32_t cdfp_topology_edge_count(const cdfp_topology* topology, int32_t element, int64_t* edges);
 /** The facet on the other side: of a cohesive element if one stands between, -1 and -1 at the boundary.
  *  Facet 0 of a cohesive element is its upper face, facet 1 its lower face. */
 int32_t cdfp_topology_mate(const cdfp_topology* topology, int32_t element, int32_t facet,
@@ -338,6 +347,9 @@ int32_t cdfp_topology_mate(const cdfp_topology* topology, int32_t element, int32
 /** `nodes` has room for 4; outward order. */
 int32_t cdfp_topology_facet_nodes(const cdfp_topology* topology, int32_t element, int32_t facet,
                                   int32_t* nodes, int64_t* count);
+/** `nodes` has room for 2. Local facets and edges are numbered as in cdfp/topology.hpp. */
+int32_t cdfp_topology_edge_nodes(const cdfp_topology* topology, int32_t element, int32_t edge,
+                                 int32_t* nodes);
 /** Pairs of element and local edge around an edge, in cyclic order. `uses` has room for `capacity` pairs;
  *  `count` is that of all pairs, those included for which there was no room. */
 int32_t cdfp_topology_elements_around_edge(const cdfp_topology* topology, int32_t element, int32_t edge,

@@ -17,7 +17,8 @@ program door_test
   end type
 
   real(dp), parameter :: coordinates(3, 12) = reshape([real(dp) :: &
-    0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1, 0, 0, 2, 1, 0, 2, 1, 1, 2, 0, 1, 2], &
+    0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1, 0, 0, 2, 1, 0, 2, 1, 1, 2, 0, 1, &
+    2], &
     [3, 12])
   integer(int32), parameter :: hexahedra(8, 2) = reshape([integer(int32) :: &
     1, 2, 3, 4, 5, 6, 7, 8, 5, 6, 7, 8, 9, 10, 11, 12], [8, 2])
@@ -237,6 +238,9 @@ contains
     call tops%get_elements_around_node(5_int32, uses)
     call check(all(shape(uses) == [2, 2]), 'two elements around a node')
     call check(all(reshape(uses, [4]) == [1, 5, 2, 1]), 'element and corner, from 1')
+    call check(tops%edge_count(1_int32) == 12, 'edges of a cube')
+    call tops%get_edge_nodes(1_int32, 1_int32, mate)
+    call check(all(mate == [1, 2]), 'the first edge')
     call tops%get_elements_around_edge(1_int32, 1_int32, uses)
     call check(all(shape(uses) == [2, 1]) .and. uses(1, 1) == 1, 'an edge of one element')
 
