@@ -31,7 +31,8 @@ Range y_range(const Chart& chart, double height) {
       if (std::isfinite(y)) range = {std::min(range.low, y), std::max(range.high, y)};
   if (!(range.span() > 0)) range.high = range.low + 1;
   const double above = 0.07 + mark_row * static_cast<double>(chart.marks.size()) / height;
-  const double below = range.low < 0 || range.low > 0 ? 0.07 : 0;
+  // Rounding errors below zero need no room.
+  const double below = range.low > 0 || range.low < -0.01 * range.high ? 0.07 : 0;
   const double span = range.span() / (1 - std::min(0.8, above + below));
   return {range.low - below * span, range.low - below * span + span};
 }

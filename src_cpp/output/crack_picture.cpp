@@ -1,5 +1,7 @@
 #include "output/crack_picture.hpp"
 
+#include <algorithm>
+
 namespace cdfp {
 namespace {
 
@@ -11,13 +13,13 @@ struct Grid {
 };
 
 Grid arrange(std::size_t panels) {
-  const std::size_t columns = panels <= 1 ? 1 : panels <= 4 ? 2 : 3;
+  const std::size_t columns = panels == 4 ? 2 : std::min<std::size_t>(panels, 3);
   return {columns, (panels + columns - 1) / columns};
 }
 
 void draw_impact(Canvas& canvas, Point at) {
-  canvas.ring(at, 10, rgb(0xffffff), 6);
-  canvas.ring(at, 10, impact_colour, 3);
+  canvas.ring(at, 7, rgb(0xffffff), 5);
+  canvas.ring(at, 7, impact_colour, 2.5);
 }
 
 void draw_panel(Canvas& canvas, const Window& window, const CrackPicture& picture, const CrackPanel& panel) {
