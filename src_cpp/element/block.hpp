@@ -1,4 +1,5 @@
-/// The data that a kernel works on: a block of elements of one part, `[component][lane]`.
+/// The data that a kernel works on: a block of elements of one part, `[row][component][lane]`, each row as
+/// wide as the widest pack.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +7,9 @@
 #include "material/constants.hpp"
 
 namespace cdfp {
+
+inline constexpr int kRows = 8;
+inline constexpr int kBlock = kRows * kLanes;  ///< elements
 
 /// What all elements of a part share.
 struct PartConstants {
@@ -20,11 +24,10 @@ struct PartConstants {
 
 struct BlockInput {
   const Lanes* constants;
-  const std::int32_t* offsets;  ///< [corner][lane], 3 * node; idle lanes repeat the last element
-  Lanes* state;
-  int count;  ///< lanes in use
+  const std::int32_t* offsets;  ///< [row][corner][lane], 3 * node; idle lanes repeat the last element
+  const Lanes* state;
+  int count;  ///< elements, the first of the block's lanes
   const PartConstants* part;
-  StepConstants step;
   const double* position;
 };
 

@@ -1,6 +1,7 @@
 #include "element/block_order.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace cdfp {
 
@@ -23,7 +24,7 @@ int longest_side(std::span<const Centroid> elements) {
 
 }  // namespace
 
-void order_in_blocks(std::span<Centroid> elements, std::size_t size) {
+void order_in_runs(std::span<Centroid> elements, std::size_t size) {
   if (elements.size() <= size) {
     std::sort(elements.begin(), elements.end(),
               [](const Centroid& a, const Centroid& b) { return a.element < b.element; });
@@ -36,40 +37,40 @@ void order_in_blocks(std::span<Centroid> elements, std::size_t size) {
                    [d](const Centroid& a, const Centroid& b) {
                      return a.x[d] != b.x[d] ? a.x[d] < b.x[d] : a.element < b.element;
                    });
-  order_in_blocks(elements.first(half), size);
-  order_in_blocks(elements.subspan(half), size);
+  order_in_runs(elements.first(half), size);
+  order_in_runs(elements.subspan(half), size);
 }
 
-std::vector<std::vector<std::int32_t>> colour_blocks(std::span<const std::size_t> first,
-                                                     std::span<const Index> nodes, Index node_count) {
+std::vector<std::vector<std::int32_t>> colour(std::span<const std::size_t> first,
+                                              std::span<const Index> nodes, Index node_count) {
   constexpr int kMost = 64;  // colours a round, one bit each
   std::vector<std::vector<std::int32_t>> colours;
   std::vector<std::int32_t> waiting(first.size() - 1);
-  for (std::size_t b = 0; b < waiting.size(); ++b) waiting[b] = static_cast<std::int32_t>(b);
+  std::iota(waiting.begin(), waiting.end(), 0);
   while (!waiting.empty()) {
     std::vector<std::uint64_t> taken(static_cast<std::size_t>(node_count), 0);
     std::vector<std::vector<std::int32_t>> round;
     std::vector<std::int32_t> left;
-    for (const std::int32_t b : waiting) {
-      const std::span<const Index> own = nodes.subspan(first[b], first[b + 1] - first[b]);
+    for (const std::int32_t item : waiting) {
+      const std::span<const Index> own = nodes.subspan(first[item], first[item + 1] - first[item]);
       std::uint64_t used = 0;
       for (const Index n : own) used |= taken[n];
       if (used == ~std::uint64_t{0}) {
-        left.push_back(b);
+        left.push_back(item);
         continue;
       }
       // The emptiest colour in use that is free here, or else a new one.
-      int colour = kMost;
+      int choice = kMost;
       for (int c = 0; c < static_cast<int>(round.size()); ++c) {
         if (used >> c & 1) continue;
-        if (colour == kMost || round[c].size() < round[colour].size()) colour = c;
+        if (choice == kMost || round[c].size() < round[choice].size()) choice = c;
       }
-      if (colour == kMost) {
-        colour = static_cast<int>(round.size());
+      if (choice == kMost) {
+        choice = static_cast<int>(round.size());
         round.emplace_back();
       }
-      round[colour].push_back(b);
-      for (const Index n : own) taken[n] |= std::uint64_t{1} << colour;
+      round[choice].push_back(item);
+      for (const Index n : own) taken[n] |= std::uint64_t{1} << choice;
     }
     colours.insert(colours.end(), round.begin(), round.end());
     waiting = std::move(left);

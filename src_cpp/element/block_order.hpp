@@ -17,11 +17,11 @@ struct Centroid {
 
 /// Reorders by recursive bisection of the longest side so that each run of `size` elements is compact; all
 /// runs but the last are full. Within a run elements ascend.
-void order_in_blocks(std::span<Centroid> elements, std::size_t size);
+void order_in_runs(std::span<Centroid> elements, std::size_t size);
 
-/// `nodes[first[b] .. first[b + 1])` are the nodes of block b (repeats are fine). Returns the blocks of each
-/// colour in ascending order: blocks of one colour share no node, and colours are of about one size.
-std::vector<std::vector<std::int32_t>> colour_blocks(std::span<const std::size_t> first,
-                                                     std::span<const Index> nodes, Index node_count);
+/// `nodes[first[i] .. first[i + 1])` are the nodes of item i (repeats are fine). Returns the items of each
+/// colour in ascending order: items of one colour share no node, and colours are of about one size.
+std::vector<std::vector<std::int32_t>> colour(std::span<const std::size_t> first,
+                                              std::span<const Index> nodes, Index node_count);
 
 }  // namespace cdfp

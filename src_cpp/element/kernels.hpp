@@ -21,11 +21,13 @@ inline constexpr int kBlockKinds = 6;
 struct BlockKernel {
   int constants = 0;  ///< components an element
   int state = 0;
-  /// Subtracts the internal forces from `force` and advances the state. Bit l of the answer: lane l is
-  /// critical.
-  std::uint64_t (*add_force)(const BlockInput& block, double* force) = nullptr;
+  /// Subtracts the internal forces from `force` and advances `state`, the block's own. Bit l of the answer:
+  /// element l is critical.
+  std::uint64_t (*add_force)(const BlockInput& block, const StepConstants& step, Lanes* state,
+                             double* force) = nullptr;
   BlockEnergy (*energy)(const BlockInput& block) = nullptr;
-  /// Bounds of omega^2 as deformed now, 1/s2, one a lane; `terms`: the four StepTerms.
+  /// Bounds of omega^2 as deformed now, 1/s2, one a lane; `terms`: [row][the four StepTerms]
+  /// [lane]. `omega_squared`: aligned as Lanes.
   void (*step_bound)(const BlockInput& block, const Lanes* terms, double* omega_squared) = nullptr;
 };
 

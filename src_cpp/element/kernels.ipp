@@ -1,5 +1,7 @@
 // The kernels, compiled once for each instruction set: the including file sets CDFP_ISA and CDFP_KERNELS.
 // Only headers whose functions live in namespace CDFP_ISA, or that hold none, may be included here.
+#include <cstddef>
+
 #include "element/full_integration.hpp"
 #include "element/kernels.hpp"
 #include "element/one_point.hpp"
@@ -10,52 +12,69 @@ namespace cdfp {
 
 namespace CDFP_ISA {
 
-CDFP_INLINE void gather_corners(const BlockInput& block, int first, Pack (&x)[8][3]) {
-  for (int corner = 0; corner < 8; ++corner) {
-    gather3(block.position, block.offsets + corner * kLanes + first, x[corner]);
+/// A pack of a block: where its data start.
+template <class Formulation, class Law>
+struct PackOfBlock {
+  const double* constants;
+  const std::int32_t* offsets;
+  std::ptrdiff_t state;
+
+  CDFP_INLINE PackOfBlock(const BlockInput& block, int first) {
+    const int row = first / kLanes, lane = first % kLanes;
+    constants = &block.constants[row * Formulation::kConstants].value[lane];
+    offsets = block.offsets + row * 8 * kLanes + lane;
+    state = Law::kState ? row * Formulation::kPoints * Law::kState * kLanes + lane : 0;
   }
-}
+  CDFP_INLINE void gather(const double* position, Pack (&x)[8][3]) const {
+    for (int corner = 0; corner < 8; ++corner) gather3(position, offsets + corner * kLanes, x[corner]);
+  }
+  /// State of a point in the block's `first`.
+  template <class Double>
+  CDFP_INLINE Double* point(Double* first, int p) const {
+    return first + (state + p * Law::kState * kLanes);
+  }
+};
 
 template <class Formulation, class Law>
-std::uint64_t add_force(const BlockInput& block, double* force) {
+std::uint64_t add_force(const BlockInput& block, const StepConstants& step, Lanes* state, double* force) {
   const PartConstants part = *block.part;
-  const StepConstants step = block.step;
+  double* block_state = reinterpret_cast<double*>(state);
   std::uint64_t critical = 0;
   for (int first = 0; first < block.count; first += kWidth) {
+    const PackOfBlock<Formulation, Law> pack(block, first);
     Pack x[8][3], f[8][3];
-    gather_corners(block, first, x);
-    double* state = Law::kState ? &block.state->value[first] : nullptr;
-    const Pack norm = Formulation::force(
-        part, &block.constants->value[first], x, f, [&](const Symmetric<Pack>& strain, int point) {
-          return Law::advance(part.material, step, strain, state + point * Law::kState * kLanes);
+    pack.gather(block.position, x);
+    const Pack norm =
+        Formulation::force(part, pack.constants, x, f, [&](const Symmetric<Pack>& strain, int point) {
+          return Law::advance(part.material, step, strain, pack.point(block_state, point));
         });
     critical |= lanes_at_least(norm, Pack(part.critical_norm_squared)) << first;
     const int left = block.count - first;
     const int lanes = left < kWidth ? left : kWidth;
     for (int corner = 0; corner < 8; ++corner) {
-      scatter_subtract3(force, block.offsets + corner * kLanes + first, lanes, f[corner]);
+      scatter_subtract3(force, pack.offsets + corner * kLanes, lanes, f[corner]);
     }
   }
-  return critical;
+  return critical & (~std::uint64_t{0} >> (kBlock - block.count));  // not of idle lanes
 }
 
 template <class Formulation, class Law>
 BlockEnergy energy(const BlockInput& block) {
   const PartConstants part = *block.part;
+  const auto* block_state = reinterpret_cast<const double*>(block.state);
   BlockEnergy sum;
   for (int first = 0; first < block.count; first += kWidth) {
+    const PackOfBlock<Formulation, Law> pack(block, first);
     Pack x[8][3];
-    gather_corners(block, first, x);
-    const double* constants = &block.constants->value[first];
-    const double* state = Law::kState ? &block.state->value[first] : nullptr;
+    pack.gather(block.position, x);
     Pack strain_energy, hourglass_energy, dissipated(0.0);
-    Formulation::energy(part, constants, x, strain_energy, hourglass_energy,
+    Formulation::energy(part, pack.constants, x, strain_energy, hourglass_energy,
                         [&](const Symmetric<Pack>& strain, int point) {
-                          return Law::energy(part.material, strain, state + point * Law::kState * kLanes);
+                          return Law::energy(part.material, strain, pack.point(block_state, point));
                         });
     for (int point = 0; point < Formulation::kPoints; ++point) {
-      dissipated += Formulation::template volume<Pack>(constants, point) *
-                    Law::template dissipated<Pack>(state + point * Law::kState * kLanes);
+      dissipated += Formulation::template volume<Pack>(pack.constants, point) *
+                    Law::template dissipated<Pack>(pack.point(block_state, point));
     }
     for (int lane = 0; lane < kWidth && first + lane < block.count; ++lane) {
       sum.strain += strain_energy[lane];
@@ -71,22 +90,22 @@ BlockEnergy energy(const BlockInput& block) {
 template <class Formulation, class Law>
 void step_bound(const BlockInput& block, const Lanes* terms, double* omega_squared) {
   const PartConstants part = *block.part;
+  const auto* block_state = reinterpret_cast<const double*>(block.state);
   for (int first = 0; first < block.count; first += kWidth) {
+    const PackOfBlock<Formulation, Law> pack(block, first);
     Pack x[8][3];
-    gather_corners(block, first, x);
-    const double* state = Law::kState ? &block.state->value[first] : nullptr;
+    pack.gather(block.position, x);
     Pack strain_square, stress_square, hourglass_square, ratio(1.0);
-    const auto at = [&](int point) { return state + point * Law::kState * kLanes; };
-    Formulation::extremes(&block.constants->value[first], x, strain_square, stress_square, hourglass_square,
+    Formulation::extremes(pack.constants, x, strain_square, stress_square, hourglass_square,
                           [&](const Symmetric<Pack>& strain, int point) {
-                            return Law::stress(part.material, strain, at(point));
+                            return Law::stress(part.material, strain, pack.point(block_state, point));
                           });
     for (int point = 0; point < Formulation::kPoints; ++point) {
-      ratio = max(ratio, Law::template stiffness_ratio<Pack>(part.material, at(point)));
+      ratio = max(ratio, Law::template stiffness_ratio<Pack>(part.material, pack.point(block_state, point)));
     }
-    const Pack reference_material = load<Pack>(&terms[0].value[first]);
-    const Pack reference_hourglass = load<Pack>(&terms[1].value[first]);
-    const Pack coupling = load<Pack>(&terms[2].value[first]), geometric = load<Pack>(&terms[3].value[first]);
+    const double* term = &terms[4 * (first / kLanes)].value[first % kLanes];
+    const Pack reference_material = load<Pack>(term), reference_hourglass = load<Pack>(term + kLanes);
+    const Pack coupling = load<Pack>(term + 2 * kLanes), geometric = load<Pack>(term + 3 * kLanes);
     const Pack stretch = Pack(1.0) + Pack(2.0) * square_root(strain_square);
     const Pack material = reference_material * ratio * stretch + geometric * square_root(stress_square);
     const Pack hourglass = reference_hourglass * stretch;

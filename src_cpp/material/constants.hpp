@@ -1,11 +1,13 @@
-/// What the laws of a part share, and the size of a block of points.
+/// What the laws of a part share, and how their points lie side by side.
 #pragma once
 
 namespace cdfp {
 
-inline constexpr int kLanes = 64;
+/// Points side by side in memory: component after component of eight points, then the next eight, so that a
+/// loop over points reads memory in its order.
+inline constexpr int kLanes = 8;
 
-/// One component of a block.
+/// One component of eight points.
 struct alignas(64) Lanes {
   double value[kLanes];
 };

@@ -1,0 +1,275 @@
+#include "element/element_blocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "cdfp/error.hpp"
+#include "element/block_order.hpp"
+#include "element/full_integration.hpp"
+#include "element/one_point.hpp"
+#include "element/step_bound.hpp"
+
+namespace cdfp {
+
+namespace {
+
+// More blocks a task save traffic to the nodes that they share; fewer leave tasks for every thread. The
+// choice must not depend on the number of threads, since it orders the sums.
+constexpr std::size_t kMostBlocksATask = 32;
+constexpr std::size_t kTasksWanted = 256;
+
+BlockKind kind_of(const PartPlan& plan, bool prism) {
+  if (plan.full) return plan.rate_dependent ? BlockKind::full_rate_dependent : BlockKind::full_elastic;
+  if (prism) return plan.rate_dependent ? BlockKind::prism_rate_dependent : BlockKind::prism_elastic;
+  return plan.rate_dependent ? BlockKind::hexahedron_rate_dependent : BlockKind::hexahedron_elastic;
+}
+
+/// g_i of one_point.hpp: H_ii = l_j l_k / (3 l_i).
+Eigen::Vector3d hourglass_constants(const HexahedronGeometry& geometry, double factor) {
+  const Eigen::Vector3d& l = geometry.lengths;
+  return (factor * l.prod() / 3 * l.cwiseProduct(l).cwiseInverse()).cwiseSqrt();
+}
+
+Corners corners_of(const Mesh& mesh, Index element) {
+  Corners x;
+  for (int c = 0; c < 8; ++c) {
+    const Index node = mesh.connectivity[8 * static_cast<std::size_t>(element) + c];
+    x.row(c) = Eigen::Map<const Eigen::RowVector3d>(&mesh.coordinates[3 * static_cast<std::size_t>(node)]);
+  }
+  return x;
+}
+
+/// An element's constants in the order of its formulation: `write(component, value)`.
+template <class Write>
+void write_constants(BlockKind kind, const HexahedronGeometry& geometry, const Eigen::Vector3d& g,
+                     Write&& write) {
+  const auto gradient = [&] {
+    for (int mode = 0; mode < 7; ++mode) {
+      for (int axis = 0; axis < 3; ++axis) write(3 * mode + axis, geometry.b(mode, axis));
+    }
+  };
+  switch (kind) {
+    case BlockKind::prism_elastic:
+    case BlockKind::prism_rate_dependent: {
+      using Shape = host::Prism;
+      const Eigen::Matrix<double, 7, 3>& b = geometry.b;
+      const double kept[] = {b(0, 0), b(0, 1), b(1, 0), b(1, 1), b(2, 2), b(3, 2), b(4, 2)};
+      for (int i = 0; i < 7; ++i) write(Shape::kGradient + i, kept[i]);
+      for (int i = 0; i < 2; ++i) write(Shape::kMoments + i, geometry.moments(2, i));
+      for (int i = 0; i < 3; ++i) write(Shape::kStiffness + i, g[i]);
+      write(Shape::kVolume, geometry.volume);
+      return;
+    }
+    case BlockKind::hexahedron_elastic:
+    case BlockKind::hexahedron_rate_dependent: {
+      using Shape = host::Hexahedron;
+      gradient();
+      for (int mode = 0; mode < 4; ++mode) {
+        for (int axis = 0; axis < 3; ++axis) {
+          write(Shape::kMoments + 3 * mode + axis, geometry.moments(mode, axis));
+        }
+      }
+      for (int i = 0; i < 3; ++i) write(Shape::kStiffness + i, g[i]);
+      write(Shape::kVolume, geometry.volume);
+      return;
+    }
+    case BlockKind::full_elastic:
+    case BlockKind::full_rate_dependent: {
+      using Shape = host::FullIntegration;
+      gradient();
+      for (int p = 0; p < Shape::kPoints; ++p) {
+        const int first = Shape::kPoint + Shape::kPerPoint * p;
+        for (int axis = 0; axis < 3; ++axis) {
+          for (int j = 0; j < 3; ++j) write(first + 3 * axis + j, geometry.to_points[p](axis, j));
+        }
+        write(first + 9, geometry.point_volumes[p]);
+      }
+      return;
+    }
+  }
+}
+
+void require_hexahedra(const Mesh& mesh) {
+  for (Index e = 0; e < mesh.element_count(); ++e) {
+    if (mesh.types[e] == ElementType::hexahedron) continue;
+    throw Error(Status::bad_mesh,
+                "element " + std::to_string(e) +
+                    " is not a hexahedron; only hexahedra have a stiffness, so mesh part '" +
+                    mesh.part_names[mesh.parts[e]] + "' with hexahedra");
+  }
+}
+
+}  // namespace
+
+ElementBlocks::ElementBlocks(const Model& model) : part_count(model.mesh.part_names.size()) {
+  const Threads threads(model.threads);
+  require_hexahedra(model.mesh);
+  sort_into_groups(model, threads);
+  for (BlockGroup& group : groups) fill(group, model.mesh, threads);
+  tighten_step_terms(model.mesh);
+  colour_tasks(model.mesh);
+}
+
+void ElementBlocks::sort_into_groups(const Model& model, const Threads& threads) {
+  const Mesh& mesh = model.mesh;
+  std::vector<std::optional<PartPlan>> plans;
+  for (const std::string& name : mesh.part_names) plans.push_back(plan_part(model, name));
+
+  const auto count = static_cast<std::size_t>(mesh.element_count());
+  std::vector<std::uint8_t> prism(count), inverted(count);
+  corner_masses.assign(count, 0);
+  threads.for_each(mesh.element_count(), [&](std::int64_t e) {
+    const std::optional<PartPlan>& plan = plans[mesh.parts[e]];
+    if (!plan) return;
+    const HexahedronGeometry geometry = hexahedron_geometry(corners_of(mesh, static_cast<Index>(e)));
+    prism[e] = geometry.prism;
+    inverted[e] = !(geometry.volume > 0 && geometry.least_jacobian > 0);
+    corner_masses[e] = plan->constants.density * geometry.volume / 8;
+  });
+  if (const auto bad = std::find(inverted.begin(), inverted.end(), 1); bad != inverted.end()) {
+    const auto e = bad - inverted.begin();
+    throw Error(Status::bad_mesh,
+                "element " + std::to_string(e) + " of part '" + mesh.part_names[mesh.parts[e]] +
+                    "' is inverted or degenerate; order its corners as in VTK and repair the mesh there");
+  }
+
+  std::vector<std::vector<Centroid>> members(part_count * kBlockKinds);
+  std::size_t deformable = 0;
+  for (Index e = 0; e < mesh.element_count(); ++e) {
+    const Index part = mesh.parts[e];
+    if (!plans[part]) continue;
+    ++deformable;
+    const Eigen::RowVector3d centre = corners_of(mesh, e).colwise().mean();
+    members[static_cast<std::size_t>(part) * kBlockKinds + static_cast<int>(kind_of(*plans[part], prism[e]))]
+        .push_back({{centre[0], centre[1], centre[2]}, e});
+  }
+  blocks_a_task_ = std::clamp<std::size_t>(deformable / kBlock / kTasksWanted, 1, kMostBlocksATask);
+  places.resize(count);
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    if (members[m].empty()) continue;
+    order_in_runs(members[m], blocks_a_task_ * kBlock);
+    for (std::size_t first = 0; first < members[m].size(); first += blocks_a_task_ * kBlock) {
+      const std::span<Centroid> rest = std::span(members[m]).subspan(first);
+      order_in_runs(rest.first(std::min(rest.size(), blocks_a_task_ * kBlock)), kBlock);
+    }
+    const Index part = static_cast<Index>(m / kBlockKinds);
+    BlockGroup group{static_cast<BlockKind>(m % kBlockKinds),
+                     &kernels.kinds[m % kBlockKinds],
+                     part,
+                     *plans[part],
+                     block_count,
+                     {},
+                     {},
+                     {},
+                     {},
+                     {}};
+    for (const Centroid& member : members[m]) {
+      places[member.element] = {static_cast<std::int32_t>(groups.size()),
+                                static_cast<std::int32_t>(group.elements.size())};
+      group.elements.push_back(member.element);
+    }
+    block_count += group.blocks();
+    groups.push_back(std::move(group));
+  }
+}
+
+void ElementBlocks::fill(BlockGroup& group, const Mesh& mesh, const Threads& threads) const {
+  const std::size_t rows = group.blocks() * kRows;
+  const auto constants = static_cast<std::size_t>(group.kernel->constants);
+  group.constants.resize(rows * constants);
+  group.state.assign(rows * static_cast<std::size_t>(group.kernel->state), Lanes{});
+  group.step_terms.resize(rows * 4);
+  group.offsets.resize(rows * 8 * kLanes);
+  const PartConstants& part = group.plan.constants;
+  threads.for_each(static_cast<std::int64_t>(rows * kLanes), [&](std::int64_t i) {
+    const auto slot = static_cast<std::size_t>(i), row = slot / kLanes, lane = slot % kLanes;
+    const Index e = group.elements[std::min(slot, group.elements.size() - 1)];
+    const HexahedronGeometry geometry = hexahedron_geometry(corners_of(mesh, e));
+    const Eigen::Vector3d g = hourglass_constants(geometry, group.plan.hourglass_factor);
+    write_constants(group.kind, geometry, g, [&](int component, double value) {
+      group.constants[row * constants + static_cast<std::size_t>(component)].value[lane] = value;
+    });
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      group.corner_offsets(slot)[corner * kLanes] =
+          3 * mesh.connectivity[8 * static_cast<std::size_t>(e) + corner];
+    }
+    const StepTerms terms = group.plan.full ? full_terms(geometry, part, part.density)
+                                            : one_point_terms(geometry, part, g, part.density);
+    Lanes* at = &group.step_terms[4 * row];
+    at[0].value[lane] = terms.material;
+    at[1].value[lane] = terms.hourglass;
+    at[2].value[lane] = terms.coupling;
+    at[3].value[lane] = terms.geometric;
+  });
+}
+
+/// Solves the eigenproblem of those elastic elements whose bound could decide the stable step.
+void ElementBlocks::tighten_step_terms(const Mesh& mesh) {
+  constexpr double kSlack = 1.005;
+  struct Candidate {
+    double bound;
+    BlockGroup* group;
+    std::size_t slot;
+  };
+  std::vector<Candidate> candidates;
+  double highest = 0;
+  for (BlockGroup& group : groups) {
+    for (std::size_t slot = 0; slot < group.elements.size(); ++slot) {
+      const Lanes* at = &group.step_terms[slot / kLanes * 4];
+      const std::size_t lane = slot % kLanes;
+      const StepTerms terms{at[0].value[lane], at[1].value[lane], at[2].value[lane], at[3].value[lane]};
+      highest = std::max(highest, std::max(terms.material, terms.hourglass));
+      if (terms.coupling > 0 && !group.plan.rate_dependent)
+        candidates.push_back({terms.bound(), &group, slot});
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.bound > b.bound; });
+  for (const auto& [bound, group, slot] : candidates) {
+    if (bound <= kSlack * highest) break;
+    const HexahedronGeometry geometry = hexahedron_geometry(corners_of(mesh, group->elements[slot]));
+    const PartConstants& part = group->plan.constants;
+    const double exact = one_point_exact(
+        geometry, part, hourglass_constants(geometry, group->plan.hourglass_factor), part.density);
+    Lanes* at = &group->step_terms[slot / kLanes * 4];
+    const std::size_t lane = slot % kLanes;
+    const double material = at[0].value[lane], hourglass = at[1].value[lane];
+    at[2].value[lane] =
+        std::max(0.0, (exact - std::max(material, hourglass)) / std::sqrt(material * hourglass));
+    highest = std::max(highest, exact);
+  }
+}
+
+void ElementBlocks::colour_tasks(const Mesh& mesh) {
+  std::vector<std::size_t> first{0};
+  std::vector<Index> nodes;
+  std::vector<Task> tasks;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const BlockGroup& group = groups[g];
+    for (std::size_t block = 0; block < group.blocks(); block += blocks_a_task_) {
+      const std::size_t last = std::min(block + blocks_a_task_, group.blocks());
+      for (std::size_t slot = block * kBlock; slot < std::min(last * kBlock, group.elements.size()); ++slot) {
+        const Index* corner = &mesh.connectivity[8 * static_cast<std::size_t>(group.elements[slot])];
+        nodes.insert(nodes.end(), corner, corner + 8);
+      }
+      first.push_back(nodes.size());
+      tasks.push_back(
+          {static_cast<std::int32_t>(g), static_cast<std::int32_t>(block), static_cast<std::int32_t>(last)});
+    }
+  }
+  for (const std::vector<std::int32_t>& of_colour : colour(first, nodes, mesh.node_count())) {
+    std::vector<Task>& list = colours.emplace_back();
+    for (const std::int32_t task : of_colour) list.push_back(tasks[task]);
+  }
+}
+
+void ElementBlocks::corners(const Place& place, std::span<const double> position, double (&x)[8][3]) const {
+  const std::int32_t* offsets = groups[place.group].corner_offsets(place.slot);
+  for (int corner = 0; corner < 8; ++corner) {
+    host::gather3(position.data(), offsets + corner * kLanes, x[corner]);
+  }
+}
+
+}  // namespace cdfp

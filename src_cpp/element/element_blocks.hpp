@@ -1,0 +1,86 @@
+/// The elements of a model sorted into blocks, with all that is kept of them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cdfp/model.hpp"
+#include "core/parallel.hpp"
+#include "element/block.hpp"
+#include "element/geometry.hpp"
+#include "element/kernels.hpp"
+#include "element/part_plan.hpp"
+
+namespace cdfp {
+
+/// All elements of one part and kind. An element's slot is its number in here: slot / kBlock is its block,
+/// slot / kLanes its row, slot % kLanes its lane. Arrays are [row][component][lane].
+struct BlockGroup {
+  BlockKind kind;
+  const BlockKernel* kernel;
+  Index part;
+  PartPlan plan;
+  std::size_t first_block;      ///< among the blocks of all groups
+  std::vector<Index> elements;  ///< of each slot; lanes of the last block may be idle
+  std::vector<Lanes> constants, state, step_terms;
+  std::vector<std::int32_t> offsets;  ///< [row][corner][lane], 3 * node
+
+  std::size_t blocks() const { return (elements.size() + kBlock - 1) / kBlock; }
+  int count(std::size_t block) const {
+    return static_cast<int>(std::min<std::size_t>(kBlock, elements.size() - block * kBlock));
+  }
+  BlockInput input(std::size_t block, std::span<const double> position) const {
+    return {constants.data() + block * kRows * static_cast<std::size_t>(kernel->constants),
+            offsets.data() + block * kBlock * 8,
+            state.data() + block * kRows * static_cast<std::size_t>(kernel->state),
+            count(block),
+            &plan.constants,
+            position.data()};
+  }
+  Lanes* block_state(std::size_t block) {
+    return state.data() + block * kRows * static_cast<std::size_t>(kernel->state);
+  }
+  std::int32_t* corner_offsets(std::size_t slot) {
+    return offsets.data() + slot / kLanes * 8 * kLanes + slot % kLanes;
+  }
+  const std::int32_t* corner_offsets(std::size_t slot) const {
+    return const_cast<BlockGroup*>(this)->corner_offsets(slot);
+  }
+};
+
+struct ElementBlocks {
+  struct Place {
+    std::int32_t group = kNone;  ///< kNone: of a rigid part
+    std::int32_t slot = 0;
+  };
+  /// Neighbouring blocks that one thread works on in turn, so that their shared nodes stay in its cache.
+  struct Task {
+    std::int32_t group;
+    std::int32_t first, last;  ///< blocks
+  };
+
+  explicit ElementBlocks(const Model& model);
+
+  /// Present corners of an element.
+  void corners(const Place& place, std::span<const double> position, double (&x)[8][3]) const;
+
+  const Kernels& kernels = choose_kernels();
+  std::vector<BlockGroup> groups;
+  std::vector<Place> places;  ///< one an element
+  std::vector<double> corner_masses;
+  std::vector<std::vector<Task>> colours;  ///< tasks of one colour share no node
+  std::size_t block_count = 0;
+  std::size_t part_count = 0;
+
+ private:
+  void sort_into_groups(const Model& model, const Threads& threads);
+  void fill(BlockGroup& group, const Mesh& mesh, const Threads& threads) const;
+  void tighten_step_terms(const Mesh& mesh);
+  void colour_tasks(const Mesh& mesh);
+
+  std::size_t blocks_a_task_ = 1;
+};
+
+}  // namespace cdfp

@@ -1,0 +1,86 @@
+#include "element/part_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "cdfp/error.hpp"
+
+namespace cdfp {
+
+namespace {
+
+/// Modulus of rate-dependent parts in the hourglass stiffness: that at this rate, 1/s.
+constexpr double kRateOfHourglass = 100;
+
+template <class Items, class Name>
+const auto& named(const Items& items, const Name& name, const std::string& what) {
+  for (const auto& item : items) {
+    if (item.name == name) return item;
+  }
+  throw Error(Status::bad_argument, what + " '" + name + "' is not defined; add it to the model");
+}
+
+double lambda_of(double modulus, double nu) {
+  return modulus * nu / ((1 + nu) * (1 - 2 * nu));
+}
+double mu_of(double modulus, double nu) {
+  return modulus / (2 * (1 + nu));
+}
+
+/// Norm of the second Piola-Kirchhoff stress below which the Cauchy stress stays under `stress`. Where S has
+/// that norm, |E| <= |S| / (2 mu), and |sigma| <= (1 + 2|E|) / (1 - 2|E|)^1.5 |S|.
+double critical_norm(double stress, double mu) {
+  const double strain = stress / (2 * mu);
+  if (strain >= 0.25) return 0;
+  return 0.999 * stress * std::pow(1 - 2 * strain, 1.5) / (1 + 2 * strain);
+}
+
+}  // namespace
+
+std::optional<PartPlan> plan_part(const Model& model, const std::string& name) {
+  const Part& part = named(model.parts, name, "part");
+  const Material& material = named(model.materials, part.material, "material");
+  PartPlan plan;
+  PartConstants& constants = plan.constants;
+  double nu = 0, hourglass_modulus = 0;
+  if (const auto* elastic = std::get_if<ElasticMaterial>(&material.law)) {
+    nu = elastic->poissons_ratio;
+    hourglass_modulus = elastic->youngs_modulus;
+    constants.density = elastic->density;
+    constants.material.lambda = lambda_of(elastic->youngs_modulus, nu);
+    constants.material.mu = mu_of(elastic->youngs_modulus, nu);
+  } else if (const auto* rate = std::get_if<RateDependentMaterial>(&material.law)) {
+    nu = rate->poissons_ratio;
+    hourglass_modulus =
+        rate->static_modulus + rate->rate_modulus * std::pow(kRateOfHourglass, rate->rate_exponent);
+    constants.density = rate->density;
+    constants.material = {lambda_of(rate->static_modulus, nu),
+                          mu_of(rate->static_modulus, nu),
+                          lambda_of(1, nu),
+                          mu_of(1, nu),
+                          rate->rate_modulus,
+                          rate->rate_exponent};
+    plan.smoothing_time = rate->smoothing_time;
+    plan.rate_dependent = true;
+  } else {
+    return std::nullopt;
+  }
+  plan.full = part.formulation == Formulation::full;
+  plan.hourglass_factor = part.hourglass * 2 * mu_of(hourglass_modulus, nu) / (1 - nu) / 64;
+  constants.bending_coupling = nu;
+  constants.shear_share = (1 - nu) / 2;
+  constants.warping_share = (1 - nu * nu) / 3;
+  plan.cracks = !part.cohesive_law.empty();
+  double norm = std::numeric_limits<double>::infinity();
+  if (plan.cracks) {
+    const CohesiveLaw& law = named(model.cohesive_laws, part.cohesive_law, "cohesive law");
+    const double stress = law.strength * std::min(1.0, law.shear_ratio);
+    norm = plan.rate_dependent ? 0 : critical_norm(stress, constants.material.mu);
+  }
+  constants.critical_norm_squared = norm * norm;
+  return plan;
+}
+
+}  // namespace cdfp

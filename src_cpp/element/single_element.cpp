@@ -1,0 +1,71 @@
+#include "element/single_element.hpp"
+
+#include "element/full_integration.hpp"
+#include "element/one_point.hpp"
+#include "material/elastic.hpp"
+#include "material/rate_dependent.hpp"
+
+namespace cdfp {
+
+namespace {
+
+using host::Symmetric;
+
+/// `visit<Formulation, Law>()`
+template <class Visit>
+void for_kind(BlockKind kind, Visit&& visit) {
+  using namespace host;
+  switch (kind) {
+    case BlockKind::prism_elastic:
+      return visit.template operator()<OnePoint<Prism>, Elastic>();
+    case BlockKind::prism_rate_dependent:
+      return visit.template operator()<OnePoint<Prism>, RateDependent>();
+    case BlockKind::hexahedron_elastic:
+      return visit.template operator()<OnePoint<Hexahedron>, Elastic>();
+    case BlockKind::hexahedron_rate_dependent:
+      return visit.template operator()<OnePoint<Hexahedron>, RateDependent>();
+    case BlockKind::full_elastic:
+      return visit.template operator()<FullIntegration, Elastic>();
+    case BlockKind::full_rate_dependent:
+      return visit.template operator()<FullIntegration, RateDependent>();
+  }
+}
+
+/// `visit<Formulation>(constants, stress_of)`
+template <class Visit>
+void with_stress(const BlockGroup& group, std::size_t slot, Visit&& visit) {
+  for_kind(group.kind, [&]<class Formulation, class Law>() {
+    const std::size_t row = slot / kLanes, lane = slot % kLanes;
+    const double* constants = &group.constants[row * Formulation::kConstants].value[lane];
+    const double* state =
+        Law::kState ? &group.state[row * Formulation::kPoints * Law::kState].value[lane] : nullptr;
+    visit.template operator()<Formulation>(constants, [&](const Symmetric<double>& strain, int point) {
+      return Law::stress(group.plan.constants.material, strain, state + point * Law::kState * kLanes);
+    });
+  });
+}
+
+}  // namespace
+
+Mat3 element_stress(const BlockGroup& group, std::size_t slot, const double (&x)[8][3]) {
+  Mat3 stress;
+  with_stress(group, slot, [&]<class Formulation>(const double* constants, auto&& stress_of) {
+    double sum[3][3];
+    const double volume = Formulation::kirchhoff_stress(constants, x, sum, stress_of);
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) stress(i, j) = sum[i][j] / volume;
+    }
+  });
+  return stress;
+}
+
+void element_force(const BlockGroup& group, std::size_t slot, const double (&x)[8][3],
+                   std::span<double> force) {
+  with_stress(group, slot, [&]<class Formulation>(const double* constants, auto&& stress_of) {
+    double f[8][3];
+    Formulation::force(group.plan.constants, constants, x, f, stress_of);
+    for (std::size_t i = 0; i < 24; ++i) force[i] = -f[i / 3][i % 3];
+  });
+}
+
+}  // namespace cdfp
