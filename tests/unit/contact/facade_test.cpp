@@ -153,22 +153,25 @@ TEST_P(Cracking, FacesThatComeFreeStayQuietAndAreFoundAsByARegularSearch) {
   EXPECT_EQ(contact.pair_count(), adaptive);
   EXPECT_GT(adaptive, 1000u);
 
-  // Closing faces push each other apart: two bricks of the block pressed together.
+  // Closing faces push each other apart: the block's halves are pressed together.
   for (Index e = 0; e < topology.bulk_count(); ++e) {
-    for (const Index node : topology.nodes(e)) {
-      const double push = nodes.reference[3 * node] < 2e-3 ? 1.0 : -1.0;
-      nodes.velocity[3 * node] = 1e-3 * push;
-    }
+    const double push = e % 4 < 2 ? 1.0 : -1.0;
+    for (const Index node : topology.nodes(e)) nodes.velocity[3 * node] = push;
   }
-  const auto energy_before = contact.energy().stored;
   for (int step = 0; step < 3; ++step) {
     for (std::size_t i = 0; i < nodes.position.size(); ++i) nodes.position[i] += 6e-8 * nodes.velocity[i];
     if (contact.due(nodes, 6e-8) == Contact::Search::regular) contact.regular_search(nodes, threads);
     contact.local_search(nodes, threads);
     contact.add_force(nodes, 6e-8, threads);
   }
-  EXPECT_GT(contact.energy().stored, energy_before);
-  EXPECT_GT(contact.touching_count(), 0u);
+  double left = 0, right = 0;
+  for (Index e = 0; e < topology.bulk_count(); ++e) {
+    for (const Index node : topology.nodes(e)) (e % 4 < 2 ? left : right) += nodes.force[3 * node];
+  }
+  EXPECT_GT(contact.energy().stored, 0.0);
+  EXPECT_LT(left, 0.0);
+  EXPECT_NEAR(left, -right, 1e-12 * right);
+  EXPECT_NEAR(contact.deepest_penetration(), 3 * 6e-8 * 2, 1e-12);
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, Cracking, testing::Range(1u, 6u));
 
