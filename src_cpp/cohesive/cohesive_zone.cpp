@@ -22,8 +22,7 @@ namespace {
 /// nodes show in a step. The mean traction takes any stiffness; the plain scheme only what it can follow.
 constexpr double kStiffness = 300;
 constexpr double kPlainStiffness = 0.5;
-/// Opening over reach, at most, at which that spring carries the strength. The softening line starts there at
-/// the full strength; strength and energy are exact.
+/// Opening over reach, at most, at which that spring carries the strength.
 constexpr double kRigidOpening = 0.01;
 constexpr std::int64_t kGrain = 64;
 
@@ -37,7 +36,9 @@ struct Point {
   Index upper = kNone;
   Index lower = kNone;
   double area = 0;
+  double strength = 0;  ///< Pa
   Softening softening;
+  Vec3 preload;        ///< m, opening at which the law is when the nodes have not moved
   double largest = 0;  ///< effective opening
   double contact = 0;  ///< Pa/m; 0 until the pair exists
   Vec3 slip;           ///< elastic slip of the friction spring
@@ -78,7 +79,7 @@ struct CohesiveZone::Points {
   void revive(Index facet);
   void add_force(Nodes& nodes, double step, double time, const Threads& threads);
   void turn(Index facet, const Nodes& nodes);
-  void stiffen(Point& point, const Nodes& nodes, double step) const;
+  void start(Point& point, const Facet& facet, const Nodes& nodes, double step) const;
   void solve_cluster(const Clusters::Cluster& cluster, Nodes& nodes, double step, ClusterSolver& work);
   void load_cluster(const Clusters::Cluster& cluster, const Nodes& nodes, double step,
                     ClusterSolver& work) const;
@@ -186,6 +187,7 @@ void CohesiveZone::Points::insert(const Topology& topology, const Insertion& ins
   const double reach = 2 * law.fracture_energy / strength;
   for (Index c = 0; c < n; ++c) {
     Point& point = points[4 * static_cast<std::size_t>(f) + c];
+    point.strength = strength;
     point.softening = {strength, reach};
     clusters.add(4 * f + c, point.upper);
     if (point.exists()) revive(f);
@@ -222,8 +224,10 @@ void CohesiveZone::Points::turn(Index facet, const Nodes& nodes) {
   f.normal = (f.orientation / norm(doubled)) * doubled;
 }
 
-/// Stiffnesses of a pair that has just come to be, from the inertia of its nodes.
-void CohesiveZone::Points::stiffen(Point& point, const Nodes& nodes, double step) const {
+/// A pair that has just come to be carries the facet's traction before it moves: its springs, stiff as its
+/// nodes' inertia asks for, are loaded by that much. The softening line starts there, and takes the fracture
+/// energy from the nodes.
+void CohesiveZone::Points::start(Point& point, const Facet& facet, const Nodes& nodes, double step) const {
   const double inertia = 1 / nodes.mass[point.upper] + 1 / nodes.mass[point.lower];
   const double yields = 0.5 * step * step * inertia * point.area;  // m/Pa
   if (scheme == CohesiveScheme::plain) {
@@ -231,17 +235,25 @@ void CohesiveZone::Points::stiffen(Point& point, const Nodes& nodes, double step
     return;
   }
   point.contact = kStiffness / yields;
-  const double strength = point.softening.scale;
-  const double start = std::min(kRigidOpening, strength / (point.contact * point.softening.reach));
-  point.largest = start * point.softening.reach;
-  point.softening.scale = strength / (1 - start);
+  const double reach = point.softening.reach;
+  point.largest = std::min(kRigidOpening * reach, point.strength / point.contact);
+  point.softening.reach = reach + point.largest;
+  point.softening.scale = point.strength * point.softening.reach / reach;
+  const Split carried(facet.traction, facet.normal);
+  const double stiffness = carried.n < 0 ? point.contact : point.strength / point.largest;
+  point.preload = (carried.n / stiffness) * facet.normal +
+                  (point.largest / (point.strength * laws[facet.law].weights.traction)) * carried.t;
+  const Split at(point.preload, facet.normal);
+  point.stored = 0.5 * point.strength / point.largest * laws[facet.law].weights.quadratic(at.n, at.t2());
+  point.pressed = at.n < 0 ? 0.5 * point.contact * at.n * at.n : 0.0;
+  point.heat = -point.pressed;
 }
 
 void CohesiveZone::Points::solve_cluster(const Clusters::Cluster& cluster, Nodes& nodes, double step,
                                          ClusterSolver& w) {
   for (const Clusters::Slot& slot : clusters.slots(cluster)) {
     Point& point = points[slot.point];
-    if (!(point.contact > 0)) stiffen(point, nodes, step);
+    if (!(point.contact > 0)) start(point, facets[slot.point / 4], nodes, step);
   }
   load_cluster(cluster, nodes, step, w);
   if (scheme == CohesiveScheme::plain) {
@@ -273,7 +285,7 @@ void CohesiveZone::Points::load_cluster(const Clusters::Cluster& cluster, const 
     ClusterSolver::Point& p = w.points[i];
     p.upper = slots[i].upper;
     p.lower = slots[i].lower;
-    p.now = nodes.x(members[p.upper]) - nodes.x(members[p.lower]);
+    p.now = nodes.x(members[p.upper]) - nodes.x(members[p.lower]) + points[slots[i].point].preload;
     load_point(slots[i], step, w, p);
   }
 }
@@ -460,7 +472,7 @@ CohesiveZone::Energy CohesiveZone::Points::energy_of(Index facet) const {
     sum.stored += p.area * (p.stored + p.pressed - p.ahead);
     sum.dissipated += p.area * (p.work - p.stored);
     sum.friction += p.area * p.heat;
-    sum.ga += p.area * 0.5 * p.softening.scale * p.growth;
+    sum.ga += p.area * 0.5 * p.strength * p.growth;
   }
   return sum;
 }
@@ -468,6 +480,8 @@ CohesiveZone::Energy CohesiveZone::Points::energy_of(Index facet) const {
 CohesiveZone::CohesiveZone(const Model& model, CohesiveScheme scheme)
     : points_(std::make_unique<Points>(model, scheme)) {}
 CohesiveZone::~CohesiveZone() = default;
+CohesiveZone::CohesiveZone(CohesiveZone&&) noexcept = default;
+CohesiveZone& CohesiveZone::operator=(CohesiveZone&&) noexcept = default;
 
 void CohesiveZone::insert(const Topology& topology, const Insertion& insertion, const OpenFacet& facet,
                           const Nodes& nodes, double time) {

@@ -23,6 +23,8 @@ class CohesiveZone {
  public:
   explicit CohesiveZone(const Model& model, CohesiveScheme scheme = CohesiveScheme::mean_traction);
   ~CohesiveZone();
+  CohesiveZone(CohesiveZone&&) noexcept;
+  CohesiveZone& operator=(CohesiveZone&&) noexcept;
 
   /// A cohesive element was inserted in the topology (and the nodes cloned). `facet.traction` is what it must
   /// carry at first. Corners of older cohesive elements that `insertion.renumbered` names are followed.

@@ -100,6 +100,7 @@ struct Increment {
   void add_path(const Split& to, double r, Softening::Mean k, Vec3 gradient, Reaction& out) const {
     const Vec3 moved = (to.n - from_n) * normal + (to.t - from_t);
     const double square = dot(moved, moved);
+    if (weights.effective * square <= 1e-12 * r * r) return;  // the rest is rounding
     const double s0 = weights.quadratic(from_n, dot(from_t, from_t));
     const double s1 = weights.quadratic(to.n, to.t2());
     const double k1 = softening.stiffness(r);
