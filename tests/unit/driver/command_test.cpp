@@ -11,6 +11,8 @@
 #include <fstream>
 #include <sstream>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -31,13 +33,16 @@ class Command : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  /// A copy of the quick case with one piece of its text changed.
-  fs::path case_with(const std::string& from, const std::string& to) const {
+  /// A copy of the quick case with pieces of its text changed.
+  fs::path case_with(const std::vector<std::pair<std::string, std::string>>& changes) const {
     std::string text = contents(CDFP_EXAMPLES "/laminated_glass/case_quick.toml");
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
+    for (const auto& [from, to] : changes) {
+      const std::size_t at = text.find(from);
+      EXPECT_NE(at, std::string::npos) << from;
+      text.replace(at, from.size(), to);
+    }
     const fs::path path = folder_ / "case.toml";
-    std::ofstream(path) << text.replace(at, from.size(), to);
+    std::ofstream(path) << text;
     return path;
   }
 
@@ -82,7 +87,7 @@ TEST_F(Command, RefusesWrongUse) {
 }
 
 TEST_F(Command, TellsWhereACaseIsWrong) {
-  const fs::path path = case_with("youngs_modulus", "young_modulus");
+  const fs::path path = case_with({{"youngs_modulus", "young_modulus"}});
   EXPECT_EQ(run({"check", path}), 1);
   EXPECT_EQ(err().rfind("cdfp: error: " + path.string() + ":", 0), 0u) << err();
   EXPECT_NE(err().find("unknown key 'young_modulus'"), std::string::npos) << err();
@@ -97,17 +102,19 @@ TEST_F(Command, ChecksTheExamples) {
 
 TEST_F(Command, EndsCleanlyWhenInterrupted) {
   const fs::path results = folder_ / "results";
-  const fs::path path = case_with("end = 80e-6", "end = 1.0");
+  const fs::path path = case_with({{"end = 80e-6", "end = 1.0"},
+                                   {"snapshot_times = [", "snapshot_times = [0, "},
+                                   {"columns = 25", "columns = 5"}});
   const pid_t child = start({"run", path, "--out", results, "--threads", "1"});
-  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!fs::exists(results / "results.pvd") && std::chrono::steady_clock::now() < give_up) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   kill(child, SIGINT);
   EXPECT_EQ(wait_for(child), 130) << err();
   EXPECT_NE(out().find("wall time"), std::string::npos) << out();
   EXPECT_NE(contents(results / "summary.json").find("\"steps\""), std::string::npos);
-  EXPECT_GT(contents(results / "history.csv").size(), 100u);
+  EXPECT_NE(contents(results / "history.csv").find("time_s"), std::string::npos);
 }
 
 }  // namespace
