@@ -109,7 +109,7 @@ class Topology {
   void facets_around(EdgeUse use, std::vector<FacetUse>& out) const;
   /// Elements around a vertex as the uncut mesh had it, starting with the given use: all that facets connect
   /// with it, through cohesive elements too.
-  void elements_around(VertexUse use, std::vector<VertexUse>& out) const;
+  void elements_around_vertex(VertexUse use, std::vector<VertexUse>& out) const;
 
   /// Elements around a node (`N{E}`), in ascending order of element numbers; a cohesive element appears once
   /// for each of its corners that names the node.

@@ -103,7 +103,7 @@ void TopologyStore::copy_elements(std::span<const ElementType> types, std::span<
   }
   for (std::size_t t = 0; t < kBulkTypes; ++t) {
     if (counts[t] == types.size()) only_type = static_cast<ElementType>(t);
-    pools[t].assign(counts[t] * stride(t), kNone);
+    pools[t].assign(counts[t] * kStride[t], kNone);
   }
   const bool mixed = counts[static_cast<std::size_t>(only_type)] != types.size();
   if (mixed) places.resize(types.size());
@@ -116,7 +116,7 @@ void TopologyStore::copy_elements(std::span<const ElementType> types, std::span<
     const std::size_t slot = filled[type]++;
     if (mixed) places[e] = static_cast<std::uint32_t>(type << kTypeShift | slot);
     const auto count = static_cast<std::size_t>(kTemplates[type].corner_count);
-    Index* record = pools[type].data() + slot * stride(type);
+    Index* record = pools[type].data() + slot * kStride[type];
     for (std::size_t c = 0; c < count; ++c) {
       const Index node = next[c];
       if (node < 0 || node >= node_count) {

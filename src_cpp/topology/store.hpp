@@ -65,11 +65,15 @@ struct TopologyStore {
 
   TopologyStore(Index node_count, std::span<const ElementType> types, std::span<const Index> connectivity);
 
-  static constexpr std::size_t stride(std::size_t type) {
-    const std::size_t words =
-        static_cast<std::size_t>(kTemplates[type].corner_count + kTemplates[type].facet_count);
-    return (words + 3) / 4 * 4;
-  }
+  /// Words of a record: nodes and mates, to full quarters of a cache line.
+  static constexpr std::array<std::size_t, kBulkTypes> kStride = [] {
+    std::array<std::size_t, kBulkTypes> stride{};
+    for (std::size_t t = 0; t < kBulkTypes; ++t) {
+      stride[t] =
+          static_cast<std::size_t>(kTemplates[t].corner_count + kTemplates[t].facet_count + 3) / 4 * 4;
+    }
+    return stride;
+  }();
 
   Index element_count() const { return bulk_count + static_cast<Index>(cohesive.size() / kCohesiveWords); }
 
@@ -89,7 +93,7 @@ struct TopologyStore {
         t = places[slot] >> kTypeShift;
         slot = places[slot] & ((1u << kTypeShift) - 1);
       }
-      const Index* record = pools[t].data() + slot * stride(t);
+      const Index* record = pools[t].data() + slot * kStride[t];
       return {record, record + kTemplates[t].corner_count, &kTemplates[t]};
     }
     const Index* record = &cohesive[static_cast<std::size_t>(e - bulk_count) * kCohesiveWords];

@@ -163,7 +163,7 @@ void Topology::facets_around(EdgeUse use, std::vector<FacetUse>& out) const {
   std::rotate(out.begin(), out.end() - 1, out.end());
 }
 
-void Topology::elements_around(VertexUse use, std::vector<VertexUse>& out) const {
+void Topology::elements_around_vertex(VertexUse use, std::vector<VertexUse>& out) const {
   out.assign(1, use);
   Visited visited;
   visited.insert(use.element);

@@ -215,7 +215,7 @@ TEST_P(Queries, AroundAVertexAsTheUncutMeshHadIt) {
     });
     std::vector<VertexUse> around;
     cut.oracle.each_corner([&](VertexUse use) {
-      cut.topology.elements_around(use, around);
+      cut.topology.elements_around_vertex(use, around);
       EXPECT_EQ(around.front(), use);
       std::set<Index> found;
       for (const VertexUse other : around) found.insert(other.element);
