@@ -110,9 +110,9 @@ void SurfaceContact::Stages::look_at_node(const double* x, Index active) {
     const double reach = (1 + kRidge) * face.radius;
     const double above = height - face.warp;
     const double below = -height - face.warp - deepest_gap;
-    // Squares first: most candidates leave here.
-    if (above > 0 || below > 0) {
-      room = std::min(room, std::max(above, below));
+    // Most candidates leave here, those that rest on the face with no gap among them.
+    if (above > kNoGap * face.radius || below > 0) {
+      room = std::min(room, std::max({above, below, 0.0}));
       return;
     }
     const double distance2 = dot(from_centre, from_centre);
