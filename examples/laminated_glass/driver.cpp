@@ -42,11 +42,18 @@ cdfp::Model laminated_glass(cdfp::Index columns, double end) {
                           .fracture_energy = 10,
                           .mode_ratio = 5,
                           .shear_ratio = 1,
-                          .friction = 0.1}};
+                          .friction = 0.1,
+                          .internal_friction = 4.1}};
   model.parts = {
-      {.name = "lower_glass", .material = "glass", .cohesive_law = "glass"},
+      {.name = "lower_glass",
+       .material = "glass",
+       .formulation = cdfp::Formulation::full,
+       .cohesive_law = "glass"},
       {.name = "pvb", .material = "pvb", .formulation = cdfp::Formulation::full, .cohesive_law = {}},
-      {.name = "upper_glass", .material = "glass", .cohesive_law = "glass"},
+      {.name = "upper_glass",
+       .material = "glass",
+       .formulation = cdfp::Formulation::full,
+       .cohesive_law = "glass"},
       {.name = "support", .material = "rubber", .formulation = cdfp::Formulation::full, .cohesive_law = {}},
       {.name = "impactor", .material = "steel", .cohesive_law = {}}};
 

@@ -115,11 +115,11 @@ contains
                                     poissons_ratio=0.49_dp)
     call model%add_rigid_material('steel', density=7850.0_dp, youngs_modulus=210e9_dp, poissons_ratio=0.27_dp)
     call model%add_cohesive_law('glass', strength=60e6_dp, fracture_energy=10.0_dp, mode_ratio=5.0_dp, &
-                                shear_ratio=1.0_dp, friction=0.1_dp)
+                                shear_ratio=1.0_dp, friction=0.1_dp, internal_friction=4.1_dp)
 
-    call model%add_part('lower_glass', 'glass', cohesive_law='glass')
+    call model%add_part('lower_glass', 'glass', formulation=CDFP_FULL, cohesive_law='glass')
     call model%add_part('pvb', 'pvb', formulation=CDFP_FULL)
-    call model%add_part('upper_glass', 'glass', cohesive_law='glass')
+    call model%add_part('upper_glass', 'glass', formulation=CDFP_FULL, cohesive_law='glass')
     call model%add_part('support', 'rubber', formulation=CDFP_FULL)
     call model%add_part('impactor', 'steel')
 
