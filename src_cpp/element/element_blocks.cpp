@@ -18,7 +18,7 @@ namespace {
 // More blocks a task save traffic to the nodes that they share; fewer leave tasks for every thread. The
 // choice must not depend on the number of threads, since it orders the sums.
 constexpr std::size_t kMostBlocksATask = 32;
-constexpr std::size_t kTasksWanted = 256;
+constexpr std::size_t kTasksWanted = 128;
 
 BlockKind kind_of(const PartPlan& plan, bool prism) {
   if (plan.full) return plan.rate_dependent ? BlockKind::full_rate_dependent : BlockKind::full_elastic;
