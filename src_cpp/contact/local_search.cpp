@@ -36,25 +36,32 @@ Vec3 SurfaceContact::Stages::segment_normal(const double* x, Index segment) cons
   return length > 0 ? n / length : Vec3{};
 }
 
-SurfaceContact::Stages::Plane SurfaceContact::Stages::plane(const double* x, Index segment) const {
+double SurfaceContact::Stages::segment_radius(const double* x, Index segment) const {
   const Index* c = surface.corners(segment);
   const int count = c[3] == kNone ? 3 : 4;
-  Vec3 corner[4];
-  Plane plane;
-  for (int i = 0; i < count; ++i) plane.centre += corner[i] = at(x, c[i]);
-  plane.centre *= 1.0 / count;
-  const Vec3 n = count == 3 ? cross(corner[1] - corner[0], corner[2] - corner[0])
-                            : cross(corner[2] - corner[0], corner[3] - corner[1]);
-  const double nn = dot(n, n);
-  plane.normal = nn > 0 ? n / std::sqrt(nn) : Vec3{};
-  double radius2 = 0;
-  for (int i = 0; i < count; ++i) {
-    const Vec3 r = corner[i] - plane.centre;
-    radius2 = std::max(radius2, dot(r, r));
+  Vec3 centre;
+  for (int i = 0; i < count; ++i) centre += at(x, c[i]) / count;
+  double radius = 0;
+  for (int i = 0; i < count; ++i) radius = std::max(radius, norm(at(x, c[i]) - centre));
+  return radius;
+}
+
+void SurfaceContact::Stages::place_plane(const double* x, Index segment) {
+  const Index* c = surface.corners(segment);
+  const Vec3 a = at(x, c[0]), b = at(x, c[1]), d = at(x, c[2]);
+  Plane& face = planes[segment];
+  Vec3 n;
+  if (c[3] == kNone) {
+    n = cross(b - a, d - a);
+    face.centre = (a + b + d) / 3;
+  } else {
+    const Vec3 e = at(x, c[3]);
+    n = cross(d - a, e - b);
+    face.centre = 0.25 * (a + b + d + e);
   }
-  plane.radius = std::sqrt(radius2);
-  plane.warp = std::abs(dot(plane.normal, corner[0] - plane.centre));
-  return plane;
+  const double nn = dot(n, n);
+  face.normal = nn > 0 ? n / std::sqrt(nn) : Vec3{};
+  face.warp = std::abs(dot(face.normal, a - face.centre));
 }
 
 FacePoint SurfaceContact::Stages::project(const double* x, Vec3 p, Index segment) const {
@@ -107,7 +114,7 @@ void SurfaceContact::Stages::look_at_node(const double* x, Index active) {
     const Vec3 from_centre = p - face.centre;
     const double height = dot(face.normal, from_centre);
     const double deepest_gap = settings.depth_limit * surface.data(segment).height;
-    const double reach = (1 + kRidge) * face.radius;
+    const double reach = (1 + kRidge) * (face.radius + travel);
     const double above = height - face.warp;
     const double below = -height - face.warp - deepest_gap;
     // Most candidates leave here, those that rest on the face with no gap among them.
@@ -221,10 +228,7 @@ void SurfaceContact::local_search(const Arrays& arrays, int threads) {
 
   ++s.stamp;
   const std::int64_t faces = static_cast<std::int64_t>(s.active_segments.size());
-  share_out(threads, faces, [&](std::int64_t i) {
-    const Index segment = s.active_segments[i];
-    s.planes[segment] = s.plane(x, segment);
-  });
+  share_out(threads, faces, [&](std::int64_t i) { s.place_plane(x, s.active_segments[i]); });
   const std::int64_t nodes = static_cast<std::int64_t>(s.active_nodes.size());
   share_out(threads, nodes, [&](std::int64_t i) { s.look_at_node(x, static_cast<Index>(i)); });
   s.hit_nodes.clear();

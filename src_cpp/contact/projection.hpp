@@ -41,7 +41,7 @@ inline FacePoint project_on_quadrilateral(Vec3 p, const Vec3* x) {
     along_xi = c1 + eta * c3;
     along_eta = c2 + xi * c3;
     rest = p - (c0 + xi * c1 + eta * along_eta);
-    if (std::abs(step1) + std::abs(step2) < 1e-13) break;
+    if (std::abs(step1) + std::abs(step2) < 1e-7) break;             // quadratic: what is left is below 1e-14
     if (iteration == 0 && dot(c3, c3) < 1e-26 * (a11 + a22)) break;  // a parallelogram: exact already
   }
   const Vec3 n = cross(along_xi, along_eta);

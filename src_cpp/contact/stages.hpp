@@ -68,7 +68,8 @@ struct SurfaceContact::Stages {
     bool kept = false;  // the same segment as a step ago
     Grip grip;
   };
-  /// A segment's mean plane, and how far its points may lie from centre and plane.
+  /// A segment's mean plane, and how far its points lie from centre (when it became a candidate: since then
+  /// by the travel more at most) and plane.
   struct Plane {
     Vec3 centre, normal;
     double radius = 0, warp = 0;
@@ -112,11 +113,12 @@ struct SurfaceContact::Stages {
   std::vector<std::string> part_names;
 
   void grow_to_surface();
-  void activate_node(Index row);
+  void activate_node(const double* x, Index row);
   void activate_edge(Index edge);
 
   Vec3 segment_normal(const double* x, Index segment) const;
-  Plane plane(const double* x, Index segment) const;
+  void place_plane(const double* x, Index segment);
+  double segment_radius(const double* x, Index segment) const;
   FacePoint project(const double* x, Vec3 p, Index segment) const;
   Vec3 node_normal(const double* x, Index row) const;
   bool shares_element(Index row, Index segment) const;

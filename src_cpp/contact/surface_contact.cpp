@@ -31,12 +31,13 @@ void SurfaceContact::Stages::grow_to_surface() {
   surface.clear_renamed();
 }
 
-void SurfaceContact::Stages::activate_node(Index row) {
+void SurfaceContact::Stages::activate_node(const double* x, Index row) {
   wake[row] = 0;
   search.node_segments().for_each(row, [&](Index segment) {
     if (is_partner[segment]) return;
     is_partner[segment] = 1;
     active_segments.push_back(segment);
+    planes[segment].radius = segment_radius(x, segment);
   });
   if (has_pairs[row]) return;
   has_pairs[row] = 1;
@@ -117,7 +118,7 @@ void SurfaceContact::regular_search(const Arrays& arrays) {
   s.active_segments.clear();
   s.active_edges.clear();
   for (Index row = 0; row < s.surface.node_count(); ++row) {
-    if (!s.search.node_segments().empty(row)) s.activate_node(row);
+    if (!s.search.node_segments().empty(row)) s.activate_node(arrays.position.data(), row);
   }
   for (Index edge = 0; edge < s.search.edge_edges().rows(); ++edge) {
     if (!s.search.edge_edges().empty(edge)) s.activate_edge(edge);
@@ -133,7 +134,7 @@ void SurfaceContact::adaptive_search(const Arrays& arrays) {
       s.view(arrays), s.surface.renamed_segments(),
       s.settings.edge_edge ? std::span<const Index>(s.surface.renamed_edges()) : std::span<const Index>());
   s.grow_to_surface();
-  for (const Index row : s.search.touched_node_rows()) s.activate_node(row);
+  for (const Index row : s.search.touched_node_rows()) s.activate_node(arrays.position.data(), row);
   for (const Index edge : s.search.touched_edge_rows()) s.activate_edge(edge);
   s.hits.resize(s.active_nodes.size());
   s.edge_hits.resize(s.active_edges.size());
