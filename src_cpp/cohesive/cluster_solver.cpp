@@ -56,17 +56,19 @@ Vec3 ClusterSolver::opening(const Point& p) const {
 }
 
 /// Reactions, loads, residuals and stiffness at `relative_`; returns the largest residual as an opening.
+template <bool Sloped>
 double ClusterSolver::evaluate() {
   ++evaluations;
   const int n = static_cast<int>(nodes.size());
   const int columns = 3 * (n - 1);
   for (Node& node : nodes) node.load = {};
-  std::fill_n(stiffness_.begin(), 3 * n * columns, 0.0);
+  if constexpr (Sloped) std::fill_n(stiffness_.begin(), 3 * n * columns, 0.0);
   for (Point& p : points) {
-    p.reaction = p.increment.at(opening(p));
+    p.reaction = p.increment.at<Sloped>(opening(p));
     const Vec3 force = p.increment.area * p.reaction.traction;
     nodes[p.upper].load += force;
     nodes[p.lower].load -= force;
+    if constexpr (!Sloped) continue;
     const double scale = half_ * p.increment.area;
     const int ends[2] = {p.upper, p.lower};
     for (int row = 0; row < 2; ++row) {
@@ -107,7 +109,13 @@ void ClusterSolver::correct() {
       right[row] = residual_[a][i];
     }
   }
-  eliminate(columns, matrix_.data(), right);
+  if (n == 2) {
+    const double* m = matrix_.data();
+    const Mat3 whole{{Vec3::load(m), Vec3::load(m + 3), Vec3::load(m + 6)}};
+    (inverse(whole) * Vec3::load(right)).store(right);
+  } else {
+    eliminate(columns, matrix_.data(), right);
+  }
   for (int a = 1; a < n; ++a) {
     before_[a] = relative_[a];
     relative_[a] -= Vec3::load(right + 3 * (a - 1));
@@ -117,18 +125,20 @@ void ClusterSolver::correct() {
 bool ClusterSolver::iterate(double tolerance) {
   double previous = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kIterations; ++i) {
-    double size = evaluate();
+    // The first solution often stands: its slope is only asked for if it does not.
+    double size = i == 1 ? evaluate<false>() : evaluate<true>();
     if (size <= tolerance) return true;
+    if (i == 1) size = evaluate<true>();
     for (int halvings = 0; i >= kUndamped && size >= previous && halvings < 6; ++halvings) {
       for (std::size_t a = 1; a < nodes.size(); ++a) relative_[a] = 0.5 * (relative_[a] + before_[a]);
-      size = evaluate();
+      size = evaluate<true>();
       if (size <= tolerance) return true;
     }
     if (!std::isfinite(size)) return false;
     previous = size;
     correct();
   }
-  return evaluate() <= tolerance;
+  return evaluate<true>() <= tolerance;
 }
 
 void ClusterSolver::start(bool at_rest) {
@@ -177,9 +187,9 @@ void ClusterSolver::solve(double step) {
     ++fixed;
     start(true);
     for (Point& p : points) p.increment.freeze(opening(p));
-    evaluate();
+    evaluate<true>();
     correct();
-    evaluate();
+    evaluate<true>();
   }
   for (Node& node : nodes) node.ahead = node.free - times(node.per_mass, node.load);
 }

@@ -47,6 +47,7 @@ class ClusterSolver {
  private:
   bool iterate(double tolerance);
   bool approach(double tolerance);
+  template <bool Sloped>
   double evaluate();
   void correct();
   void start(bool at_rest);

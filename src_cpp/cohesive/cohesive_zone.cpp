@@ -318,7 +318,8 @@ void CohesiveZone::Points::load_point(const Clusters::Slot& slot, double step, C
   }
   if (law.given.friction > 0) {
     const double damage = std::min(1.0, point.largest / point.softening.reach);
-    i.friction = law.given.friction * (1 - std::pow(1 - damage, law.given.friction_exponent));
+    const double q = law.given.friction_exponent;
+    i.friction = law.given.friction * (q == 1 ? damage : 1 - std::pow(1 - damage, q));
   }
 }
 
@@ -381,7 +382,7 @@ void CohesiveZone::Points::store_cluster(const Clusters::Cluster& cluster, Nodes
     const Split at(to, i.normal);
 
     const bool whole = !point.broken();
-    if (whole) {
+    if (whole && i.weights.opening(at.n, at.t2()) > point.largest) {
       point.growth += weighted_growth(i.weights, i.normal, from, to, point.largest, point.softening.reach);
     }
     point.largest = std::max(i.largest, i.weights.opening(at.n, at.t2()));

@@ -69,15 +69,18 @@ struct Increment {
     linear = true;
   }
 
+  /// With or without its slope.
+  template <bool Sloped>
   Reaction at(Vec3 x) const {
     Reaction out;
     const Split to(x, normal);
-    if (unloading > 0) add_cohesion(to, out);
-    if (contact > 0 && (linear ? closed : (from_n < 0 || to.n < 0))) add_contact(to, out);
+    if (unloading > 0) add_cohesion<Sloped>(to, out);
+    if (contact > 0 && (linear ? closed : (from_n < 0 || to.n < 0))) add_contact<Sloped>(to, out);
     return out;
   }
 
  private:
+  template <bool Sloped>
   void add_cohesion(const Split& to, Reaction& out) const {
     PositiveMean opening = positive_mean(from_n, to.n);
     if (linear) opening = closed ? PositiveMean{0, 0} : PositiveMean{0.5 * (from_n + to.n), 0.5};
@@ -87,16 +90,18 @@ struct Increment {
     const Softening::Mean k = loads ? softening.mean(largest, r0, r) : Softening::Mean{unloading, 0};
     const Vec3 path = opening.value * normal + (0.5 * weights.traction) * (from_t + to.t);
     out.traction = k.value * path;
-    out.slope.add_axial(k.value * opening.slope, 0.5 * k.value * weights.traction, normal);
+    if constexpr (Sloped)
+      out.slope.add_axial(k.value * opening.slope, 0.5 * k.value * weights.traction, normal);
     if (loads) {
       const Vec3 gradient = std::max(to.n, 0.0) * normal + weights.effective * to.t;
-      out.slope.add_dyad((k.slope / r) * path, gradient);
-      if (weights.mode_ratio != 1) add_path(to, r, k, gradient, out);
+      if constexpr (Sloped) out.slope.add_dyad((k.slope / r) * path, gradient);
+      if (weights.mode_ratio != 1) add_path<Sloped>(to, r, k, gradient, out);
     }
   }
 
   /// Where the ratio of opening to sliding changes on the way, the mean stiffness misses the work of the
   /// straight path by a little: the rest goes along the increment (Gonzalez 1996).
+  template <bool Sloped>
   void add_path(const Split& to, double r, Softening::Mean k, Vec3 gradient, Reaction& out) const {
     const Vec3 moved = (to.n - from_n) * normal + (to.t - from_t);
     const double square = dot(moved, moved);
@@ -106,9 +111,10 @@ struct Increment {
     const double k1 = softening.stiffness(r);
     Vec3 turning;
     const double growth = weighted_growth(weights, normal, from_n * normal + from_t, to.n * normal + to.t,
-                                          largest, softening.reach, &turning);
+                                          largest, softening.reach, Sloped ? &turning : nullptr);
     const double missing = 0.5 * (k1 * s1 - unloading * s0 + softening.scale * growth - k.value * (s1 - s0));
     out.traction += (missing / square) * moved;
+    if constexpr (!Sloped) return;
     const Vec3 path = std::max(to.n, 0.0) * normal + weights.traction * to.t;
     const Vec3 missing_slope = (k1 - k.value) * path - (0.5 * (s1 - s0) * k.slope / r) * gradient +
                                (0.5 * softening.scale) * turning;
@@ -118,25 +124,28 @@ struct Increment {
 
   /// A stiff spring that only pushes, and Coulomb friction by an elastic slip that ends where it slides:
   /// taken at the half step ahead, so that it never feeds energy in.
+  template <bool Sloped>
   void add_contact(const Split& to, Reaction& out) const {
     PositiveMean closing = positive_mean(-from_n, -to.n);
     if (linear) closing = {-0.5 * (from_n + to.n), 0.5};
     out.contact = -contact * closing.value;
     out.traction += out.contact * normal;
-    out.slope.add_axial(contact * closing.slope, 0, normal);
+    if constexpr (Sloped) out.slope.add_axial(contact * closing.slope, 0, normal);
     if (friction <= 0) return;
     const double limit = friction * contact * closing.value;
     const Vec3 trial = slip + to.t - from_t;
     const double length = norm(trial);
     if (contact * length <= limit) {
       out.slip = trial;
-      out.slope.add_axial(0, contact, normal);
+      if constexpr (Sloped) out.slope.add_axial(0, contact, normal);
     } else {
       const Vec3 direction = trial / length;
       out.slip = (limit / contact) * direction;
-      out.slope.add_axial(0, limit / length, normal);
-      out.slope.add_dyad((-limit / length) * direction, direction);
-      out.slope.add_dyad((-friction * contact * closing.slope) * direction, normal);
+      if constexpr (Sloped) {
+        out.slope.add_axial(0, limit / length, normal);
+        out.slope.add_dyad((-limit / length) * direction, direction);
+        out.slope.add_dyad((-friction * contact * closing.slope) * direction, normal);
+      }
     }
     out.friction = contact * out.slip;
     out.traction += out.friction;
