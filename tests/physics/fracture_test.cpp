@@ -44,7 +44,7 @@ TEST(Fracture, SpallBarDissipatesTheFractureEnergy) {
 
 TEST(Fracture, LaminatedGlassInSmall) {
   const auto run = [](int threads) {
-    Model model = read_case(CDFP_SOURCE_DIR "/examples/laminated_glass/case_quick.toml").model;
+    Model model = read_case(CDFP_SOURCE_DIR "/examples/laminated_glass/case_quick.toml");
     model.threads = threads;
     Simulation s(std::move(model));
     s.advance(1000000);
