@@ -55,10 +55,8 @@ int32_t cdfp_simulation_advance(cdfp_simulation* simulation, int64_t steps, int6
   return guarded(__func__, [&] {
     const Change s(simulation);
     if (steps < 0) refuse("argument 'steps' is negative (" + std::to_string(steps) + ")");
-    const int64_t before = s->step_count();
-    if (done) *done = 0;
-    s->advance(steps);
-    if (done) *done = s->step_count() - before;
+    const int64_t count = s->advance(steps);
+    if (done) *done = count;
   });
 }
 
@@ -66,11 +64,9 @@ int32_t cdfp_simulation_advance_to(cdfp_simulation* simulation, double time, int
   return guarded(__func__, [&] {
     const Change s(simulation);
     if (!(time >= 0)) refuse("argument 'time' is " + std::to_string(time) + "; it must not be negative");
-    if (done) *done = 0;
-    while (!s->finished() && s->time() + 0.5 * s->step_size() < time) {
-      s->step();
-      if (done) ++*done;
-    }
+    const int64_t before = s->step_count();
+    while (!s->finished() && s->time() + 0.5 * s->step_size() < time) s->step();
+    if (done) *done = s->step_count() - before;
   });
 }
 

@@ -134,6 +134,7 @@ struct Simulation::Stages {
   std::vector<VertexUse> around_;
   std::vector<FacetUse> freed_;
   double next_step_ = 0;
+  double work_ahead_ = 0;
   int adaptive_clock_ = 0;
   int regular_clock_ = 0;
   bool warned_of_step_ = false;
@@ -198,6 +199,12 @@ Simulation::Stages::Stages(Model given)
 }
 
 void Simulation::Stages::list_stages() {
+  if (has_gravity()) {
+    add_stage(move_, "gravity_work", [this] {
+      external_work += gravity_work(gravity(), step_size, nodes);
+      for (const RigidMotion& body : bodies) external_work += body.gravity_work(gravity(), step_size);
+    });
+  }
   add_stage(move_, "drift", [this] {
     drift(step_size, nodes, threads);
     for (RigidMotion& body : bodies) body.drift(step_size, nodes);
@@ -309,10 +316,10 @@ void Simulation::Stages::search() {
 void Simulation::Stages::accelerate_all() {
   accelerate(kick, nodes, threads);
   for (RigidMotion& body : bodies) body.accelerate(kick, gravity(), nodes);
-  if (constraints.any_moving()) external_work += constraints.apply(time + 0.5 * next_step_, kick, nodes);
-  if (has_gravity()) {
-    external_work += gravity_work(gravity(), kick, nodes);
-    for (const RigidMotion& body : bodies) external_work += body.gravity_work(gravity(), kick);
+  if (constraints.any_moving()) {
+    const Constraints::Work work = constraints.apply(time + 0.5 * next_step_, kick, nodes);
+    external_work += work.step;
+    work_ahead_ = work.ahead;
   }
   if (!bodies.empty()) monitor.watch_force(time, bodies.front().force());
 }
@@ -363,7 +370,7 @@ void Simulation::Stages::record() {
 Energies Simulation::Stages::energies() const {
   Energies sum;
   sum.initial = initial_energy;
-  sum.external_work = external_work;
+  sum.external_work = external_work + work_ahead_;
   sum.kinetic = kinetic_energy(kick, nodes);
   for (const RigidMotion& body : bodies) sum.kinetic += body.kinetic_energy(kick);
   for (const PartEnergy& part : elements.energies(nodes.position, threads)) {

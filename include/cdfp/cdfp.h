@@ -20,6 +20,8 @@
 
 #include <stdint.h>
 
+/* NOLINTBEGIN(readability-identifier-naming): names of a C interface */
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -371,5 +373,7 @@ int32_t cdfp_topology_check(const cdfp_topology* topology, char* text, int64_t c
 #ifdef __cplusplus
 }
 #endif
+
+/* NOLINTEND(readability-identifier-naming) */
 
 #endif

@@ -27,8 +27,10 @@ struct BoxEntry {
 };
 
 inline bool overlap(const Corner& low_a, const Corner& high_a, const Corner& low_b, const Corner& high_b) {
-  return low_a[0] <= high_b[0] && low_b[0] <= high_a[0] && low_a[1] <= high_b[1] && low_b[1] <= high_a[1] &&
-         low_a[2] <= high_b[2] && low_b[2] <= high_a[2];
+  // All six at once: a branch for each would be foretold wrongly too often.
+  const int apart = int(low_a[0] > high_b[0]) | int(low_b[0] > high_a[0]) | int(low_a[1] > high_b[1]) |
+                    int(low_b[1] > high_a[1]) | int(low_a[2] > high_b[2]) | int(low_b[2] > high_a[2]);
+  return apart == 0;
 }
 
 /// Cells of one length over a box of space; what lies outside counts to the border cells. If the space has

@@ -70,10 +70,7 @@ double kinetic_energy(double step, const Nodes& nodes) {
 }
 
 double gravity_work(Vec3 gravity, double step, const Nodes& nodes) {
-  return sum_over_free(nodes, [&](Index n) {
-    const Vec3 middle = nodes.v(n) - 0.5 * step * acceleration(nodes, n);
-    return step * nodes.mass[n] * dot(gravity, middle);
-  });
+  return sum_over_free(nodes, [&](Index n) { return step * nodes.mass[n] * dot(gravity, nodes.v(n)); });
 }
 
 Vec3 momentum(const Nodes& nodes) {

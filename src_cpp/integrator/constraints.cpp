@@ -74,8 +74,8 @@ void Constraints::follow(const Insertion& insertion) {
   }
 }
 
-double Constraints::apply(double time, double step, Nodes& nodes) {
-  double work = 0;
+Constraints::Work Constraints::apply(double time, double step, Nodes& nodes) {
+  Work work;
   for (const Moving& m : moving_) {
     const double value = value_at(m.velocity, time);
     for (const Index n : m.nodes) {
@@ -84,7 +84,8 @@ double Constraints::apply(double time, double step, Nodes& nodes) {
         const std::size_t k = 3 * static_cast<std::size_t>(n) + d;
         const double before = nodes.velocity[k];
         const double impulse = nodes.mass[n] * (value - before) - nodes.force[k] * step;
-        work += impulse * 0.5 * (before + value);
+        work.step += impulse * 0.5 * (before + value);
+        work.ahead += 0.5 * step * nodes.force[k] * value;
         nodes.velocity[k] = value;
       }
     }

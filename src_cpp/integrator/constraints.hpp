@@ -19,9 +19,15 @@ class Constraints {
   void follow(const Insertion& insertion);
 
   bool any_moving() const { return !moving_.empty(); }
-  /// Sets the prescribed velocities of `time` and returns the work that they do over `step`, J: what the
-  /// constraint adds to the force on the node is its mass times the change of velocity, less the force.
-  double apply(double time, double step, Nodes& nodes);
+  /// Work of the constraints, J.
+  struct Work {
+    double step = 0;  ///< over the change of velocity at step n, half a step to either side
+    double ahead =
+        0;  ///< to be added for the balance at n itself, with `kinetic_energy` as it takes the velocities
+  };
+  /// Sets the prescribed velocities of `time`. What the constraint adds to the force on a node is its mass
+  /// times the change of velocity, less the force.
+  Work apply(double time, double step, Nodes& nodes);
 
  private:
   struct Moving {

@@ -23,10 +23,8 @@ class RigidMotion {
   /// With v(n-1/2) . v(n+1/2) for the square: with potential energy at n it is what leapfrog conserves, J.
   double kinetic_energy(double step) const;
 
-  /// Work of gravity over a step, J.
-  double gravity_work(Vec3 gravity, double step) const {
-    return step * mass_ * dot(gravity, velocity_ - 0.5 * step * last_acceleration_);
-  }
+  /// Work of gravity over the drift to come, J.
+  double gravity_work(Vec3 gravity, double step) const { return step * mass_ * dot(gravity, velocity_); }
 
   Vec3 center() const { return center_; }
   Vec3 velocity() const { return velocity_; }

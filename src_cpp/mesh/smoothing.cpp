@@ -63,11 +63,13 @@ class Smoother {
     const double ax = after[0] - here[0], ay = after[1] - here[1];
     const double bx = before[0] - here[0], by = before[1] - here[1];
     const double area = ax * by - ay * bx;
-    if (area <= 1e-3 * target_area_) return 1e6 * (1 - area / target_area_);
+    if (area <= 1e-3 * target_area_) return 1e30 * (1 - area / target_area_);
     const double shape = (ax * ax + ay * ay + bx * bx + by * by) / (2 * area);
     const double size = area / target_area_;
-    const double value = shape + 0.25 * (size + 1 / size);
-    return value * value * value * value;
+    const double value = shape + 0.4 * (size + 1 / size);
+    const double squared = value * value;
+    const double fourth = squared * squared;
+    return fourth * fourth;  // a high power, for it is the worst corner that counts
   }
 
   double badness_around(std::size_t p) const {

@@ -204,11 +204,41 @@ static void simulations(void) {
   DONE(cdfp_simulation_free(&simulation));
 }
 
+/* A step far beyond the stable one: the run is lost, the state stays readable, other runs go on. */
+static void lost_run(void) {
+  cdfp_simulation *lost = NULL, *other = NULL;
+  cdfp_energies energies;
+  const double* view = NULL;
+  const double push = 1;
+  const int32_t bottom[4] = {0, 1, 2, 3}, up[3] = {0, 0, 1};
+  int64_t steps = 0, nodes = 0;
+
+  cdfp_model* model = two_cubes();
+  DONE(cdfp_simulation_create(model, &other));
+  DONE(cdfp_model_add_node_set(model, "bottom", 4, bottom));
+  DONE(cdfp_model_add_prescribed_velocity(model, "bottom", up, 1, NULL, &push));
+  DONE(cdfp_model_set_fixed_step(model, 1e-3));
+  DONE(cdfp_model_set_end_time(model, 100));
+  DONE(cdfp_model_set_history_interval(model, 1));
+  DONE(cdfp_simulation_create(model, &lost));
+  DONE(cdfp_model_free(&model));
+  REFUSED(cdfp_simulation_advance(lost, 100000, NULL), CDFP_DIVERGED, "stable");
+  DONE(cdfp_simulation_step_count(lost, &steps));
+  CHECK(steps > 0 && steps < 100000);
+  DONE(cdfp_simulation_positions(lost, &view, &nodes));
+  CHECK(nodes == 12);
+  DONE(cdfp_simulation_energies(lost, &energies));
+  DONE(cdfp_simulation_step(other));
+  DONE(cdfp_simulation_free(&lost));
+  DONE(cdfp_simulation_free(&other));
+}
+
 int main(void) {
   handles();
   models();
   meshes();
   topologies();
   simulations();
+  lost_run();
   return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -1,6 +1,5 @@
 // Every field of a model can be set through the C interface, and results come out of it as they are. The
-// The structured bindings count the fields: who adds one to a C++ struct is sent here, and from here to
-// cdfp.h.
+// structured bindings count the fields: who adds one to a C++ struct is sent here, and from here to cdfp.h.
 #include <gtest/gtest.h>
 
 #include <array>
