@@ -8,7 +8,7 @@ target_compile_options(cdfp_options INTERFACE
   $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-restrict>) # GCC 12 sees overlaps in std::string that are not there
 target_link_libraries(cdfp_options INTERFACE OpenMP::OpenMP_CXX)
 if(CDFP_SANITIZE)
-  target_compile_options(cdfp_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_compile_options(cdfp_options INTERFACE -O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   target_link_options(cdfp_options INTERFACE -fsanitize=address,undefined)
 endif()
 
