@@ -26,7 +26,7 @@ cmake --build "$root/build" --target cdfp_command --parallel "$(nproc)"
 
 status=0
 "$root/build/bin/cdfp" run "$case_file" --out "$out" "${arguments[@]}" || status=$?
-if [ -f "$out/summary.json" ]; then
+if [ "$status" -eq 0 ] || [ "$status" -eq 130 ]; then  # 130: ended by Ctrl-C
   echo
   echo "Cracks of the whole plate:   $out/cracks_upper.png, $out/cracks_lower.png"
   echo "Force and energies:          $out/force.png, $out/energy.png, $out/history.csv"
