@@ -205,7 +205,8 @@ void ElementBlocks::fill(BlockGroup& group, const Mesh& mesh, const Threads& thr
   });
 }
 
-/// Solves the eigenproblem of those elastic elements whose bound could decide the stable step.
+/// Solves the eigenproblem of those elements whose bound could decide the stable step. Where the rate scales
+/// the material's stiffness but not that of the hourglass, the bound stays.
 void ElementBlocks::tighten_step_terms(const Mesh& mesh) {
   constexpr double kSlack = 1.005;
   struct Candidate {
@@ -221,7 +222,7 @@ void ElementBlocks::tighten_step_terms(const Mesh& mesh) {
       const std::size_t lane = slot % kLanes;
       const StepTerms terms{at[0].value[lane], at[1].value[lane], at[2].value[lane], at[3].value[lane]};
       highest = std::max(highest, std::max(terms.material, terms.hourglass));
-      if (terms.coupling > 0 && !group.plan.rate_dependent)
+      if (terms.coupling > 0 && (group.plan.full || !group.plan.rate_dependent))
         candidates.push_back({terms.bound(), &group, slot});
     }
   }
@@ -231,8 +232,11 @@ void ElementBlocks::tighten_step_terms(const Mesh& mesh) {
     if (bound <= kSlack * highest) break;
     const HexahedronGeometry geometry = hexahedron_geometry(corners_of(mesh, group->elements[slot]));
     const PartConstants& part = group->plan.constants;
-    const double exact = one_point_exact(
-        geometry, part, hourglass_constants(geometry, group->plan.hourglass_factor), part.density);
+    const double exact =
+        group->plan.full
+            ? full_exact(geometry, part, part.density)
+            : one_point_exact(geometry, part, hourglass_constants(geometry, group->plan.hourglass_factor),
+                              part.density);
     Lanes* at = &group->step_terms[slot / kLanes * 4];
     const std::size_t lane = slot % kLanes;
     const double material = at[0].value[lane], hourglass = at[1].value[lane];

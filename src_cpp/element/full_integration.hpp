@@ -15,6 +15,7 @@ namespace cdfp::CDFP_ISA {
 
 struct FullIntegration {
   static constexpr int kPoints = 8;
+  static constexpr bool kHourglassFollowsLaw = true;  ///< non-uniform strains are the law's too
   // Mean gradient (7 x 3, as Hexahedron), then for each point d(xi_m)/dX_j / 8 (3 x 3) and its volume.
   static constexpr int kPoint = 21, kPerPoint = 10;
   static constexpr int kConstants = kPoint + kPoints * kPerPoint;

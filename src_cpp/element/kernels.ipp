@@ -108,7 +108,8 @@ void step_bound(const BlockInput& block, const Lanes* terms, double* omega_squar
     const Pack coupling = load<Pack>(term + 2 * kLanes), geometric = load<Pack>(term + 3 * kLanes);
     const Pack stretch = Pack(1.0) + Pack(2.0) * square_root(strain_square);
     const Pack material = reference_material * ratio * stretch + geometric * square_root(stress_square);
-    const Pack hourglass = reference_hourglass * stretch;
+    const Pack hourglass =
+        reference_hourglass * (Formulation::kHourglassFollowsLaw ? ratio : Pack(1.0)) * stretch;
     const Pack h = square_root(hourglass_square * geometric * Pack(part.density / 64));
     const Pack bound = max(material, hourglass) + coupling * square_root(material * hourglass) +
                        hourglass * h * (Pack(4.0) + h);

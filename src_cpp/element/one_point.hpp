@@ -135,6 +135,7 @@ template <class Shape>
 struct OnePoint {
   static constexpr int kPoints = 1;
   static constexpr int kConstants = Shape::kConstants;
+  static constexpr bool kHourglassFollowsLaw = false;  ///< its stiffness is that of a constant modulus
 
   /// `stress_of(strain, point)` gives the second Piola-Kirchhoff stress. Returns its greatest squared norm.
   template <class T, class StressOf>

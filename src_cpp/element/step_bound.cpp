@@ -14,8 +14,9 @@ using Eigen::Vector3d;
 using Stiffness = Eigen::Matrix<double, 24, 24>;
 using StrainOf = Eigen::Matrix<double, 6, 24>;
 
-double highest(const Stiffness& k) {
-  return Eigen::SelfAdjointEigenSolver<Stiffness>(k, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+template <class Symmetric>
+double highest(const Symmetric& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Symmetric>(matrix, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
 /// Engineering strains xx yy zz xy yz xz of corner displacements, for gradients by corner.
@@ -63,6 +64,53 @@ Eigen::Matrix<double, 12, 12> hourglass_stiffness(const PartConstants& part, con
   return k;
 }
 
+/// Highest eigenvalue of `hourglass_stiffness` in closed form but for the twist.
+double stiffest(const PartConstants& part, const Vector3d& g) {
+  double most = 0;
+  Matrix3d twist = Matrix3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const double a = g[i] * g[i], b = g[j] * g[j];
+    most = std::max(most, 0.5 * (a + b) + std::hypot(0.5 * (a - b), part.bending_coupling * g[i] * g[j]));
+    most = std::max(most, part.warping_share * a);
+    Vector3d pair = Vector3d::Zero();
+    pair[i] = g[j];
+    pair[j] = g[i];
+    twist += part.shear_share * pair * pair.transpose();
+  }
+  return std::max(most, highest(twist));
+}
+
+/// material and geometric of the mean gradient. In the principal axes of the gradients' metric shear and
+/// normal strains part; the elasticity is isotropic.
+StepTerms mean_terms(const HexahedronGeometry& geometry, const PartConstants& part, double density) {
+  const double lambda = part.material.lambda, mu = part.material.mu;
+  const Matrix3d metric = geometry.gradient.transpose() * geometry.gradient;
+  const Vector3d squares =
+      Eigen::SelfAdjointEigenSolver<Matrix3d>(metric, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vector3d roots = squares.cwiseSqrt();
+  Matrix3d normal = lambda * roots * roots.transpose();
+  normal.diagonal() += 2 * mu * squares;
+  StepTerms terms;
+  terms.material = 8 / density * std::max(mu * (squares[1] + squares[2]), highest(normal));
+  terms.geometric = 8 / density * squares[2];
+  return terms;
+}
+
+/// Between the space of the mean gradient and that of an orthonormal `basis`.
+double greatest_cosine(const Corners& gradient, const Eigen::Matrix<double, 8, 4>& basis) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> metric(gradient.transpose() * gradient);
+  const Eigen::Matrix<double, 3, 4> cosines = metric.operatorInverseSqrt() * gradient.transpose() * basis;
+  if (cosines.cwiseAbs().maxCoeff() < 1e-9) return 0;
+  return std::min(1.0, std::sqrt(highest(Matrix3d(cosines * cosines.transpose()))));
+}
+
+Corners point_gradient(const HexahedronGeometry& geometry, int p) {
+  const double place = 1 / std::sqrt(3.0);
+  return shape_slopes(p & 1 ? place : -place, p & 2 ? place : -place, p & 4 ? place : -place) *
+         geometry.to_points[p];
+}
+
 }  // namespace
 
 double StepTerms::bound() const {
@@ -71,79 +119,44 @@ double StepTerms::bound() const {
 
 StepTerms one_point_terms(const HexahedronGeometry& geometry, const PartConstants& part,
                           const Vector3d& hourglass, double density) {
-  const double mass = density * geometry.volume / 8;
-  const double lambda = part.material.lambda, mu = part.material.mu;
-  StepTerms terms;
-
-  // In the principal axes of the gradients' metric, shear and normal strains part; the elasticity is
-  // isotropic.
-  const Matrix3d metric = geometry.gradient.transpose() * geometry.gradient;
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(metric);
-  const Vector3d squares = axes.eigenvalues();
-  const Vector3d lengths = squares.cwiseSqrt();
-  Matrix3d normal = lambda * lengths * lengths.transpose();
-  normal.diagonal() += 2 * mu * squares;
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> waves(normal, Eigen::EigenvaluesOnly);
-  const double shear = mu * (squares[1] + squares[2]);
-  terms.material = geometry.volume / mass * std::max(shear, waves.eigenvalues()[2]);
-  terms.geometric = geometry.volume / mass * squares[2];
-
+  StepTerms terms = mean_terms(geometry, part, density);
   const Eigen::Matrix<double, 8, 4> shapes = hourglass_shapes(geometry);
-  const Eigen::Matrix4d shape_metric = shapes.transpose() * shapes;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> spread(shape_metric);
-  double stiffest = 0;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3;
-    const double a = hourglass[i] * hourglass[i], b = hourglass[j] * hourglass[j];
-    stiffest = std::max(stiffest, 0.5 * (a + b) + std::hypot(0.5 * (a - b), part.bending_coupling *
-                                                                                hourglass[i] * hourglass[j]));
-    stiffest = std::max(stiffest, part.warping_share * a);
-  }
-  Matrix3d twist = Matrix3d::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3;
-    Vector3d pair = Vector3d::Zero();
-    pair[i] = hourglass[j];
-    pair[j] = hourglass[i];
-    twist += part.shear_share * pair * pair.transpose();
-  }
-  stiffest = std::max(
-      stiffest, Eigen::SelfAdjointEigenSolver<Matrix3d>(twist, Eigen::EigenvaluesOnly).eigenvalues()[2]);
-  terms.hourglass = stiffest * spread.eigenvalues()[3] / mass;
-
-  const Eigen::Matrix<double, 3, 4> overlap = geometry.gradient.transpose() * shapes;
-  if (overlap.cwiseAbs().maxCoeff() > 1e-12) {
-    const Eigen::Matrix<double, 3, 4> cosines =
-        axes.operatorInverseSqrt() * overlap * spread.operatorInverseSqrt();
-    terms.coupling = std::min(
-        1.0,
-        std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix3d>(cosines * cosines.transpose()).eigenvalues()[2]));
-  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> spread(shapes.transpose() * shapes);
+  terms.hourglass = stiffest(part, hourglass) * spread.eigenvalues()[3] * 8 / (density * geometry.volume);
+  terms.coupling = greatest_cosine(geometry.gradient, shapes * spread.operatorInverseSqrt());
   return terms;
 }
 
+/// The stiffness is that of the mean strains plus that of what the points' gradients d_p differ from the
+/// mean, since these have no mean; the latter works on deviators alone: <= 2 mu sum_p w_p |d_p|^2.
 StepTerms full_terms(const HexahedronGeometry& geometry, const PartConstants& part, double density) {
-  const double mass = density * geometry.volume / 8;
+  StepTerms terms = mean_terms(geometry, part, density);
+  Eigen::Matrix<double, 8, 8> differences = Eigen::Matrix<double, 8, 8>::Zero();
+  terms.geometric = 0;
+  for (int p = 0; p < 8; ++p) {
+    const Corners gradient = point_gradient(geometry, p);
+    const Corners difference = gradient - geometry.gradient;
+    const double share = geometry.point_volumes[p] / geometry.volume * 8 / density;  // volume over mass
+    differences += share * difference * difference.transpose();
+    terms.geometric += 2 * share * highest(Matrix3d(gradient.transpose() * gradient));
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 8, 8>> spread(differences);
+  terms.hourglass = 2 * part.material.mu * spread.eigenvalues()[7];
+  terms.coupling = greatest_cosine(geometry.gradient, spread.eigenvectors().rightCols<4>());
+  return terms;
+}
+
+double full_exact(const HexahedronGeometry& geometry, const PartConstants& part, double density) {
   const Eigen::Matrix<double, 6, 6> c = elasticity(part.material.lambda, part.material.mu);
   const StrainOf mean = strain_of(geometry.gradient);
   Stiffness k = Stiffness::Zero();
-  StepTerms terms;
   for (int p = 0; p < 8; ++p) {
-    const double place = 1 / std::sqrt(3.0);
-    const Corners gradient =
-        shape_slopes(p & 1 ? place : -place, p & 2 ? place : -place, p & 4 ? place : -place) *
-        geometry.to_points[p];
-    StrainOf b = strain_of(gradient);
+    StrainOf b = strain_of(point_gradient(geometry, p));
     const Eigen::Matrix<double, 1, 24> correction = (mean - b).topRows<3>().colwise().sum() / 3;
     b.topRows<3>().rowwise() += correction;
     k += geometry.point_volumes[p] * b.transpose() * c * b;
-    const Matrix3d metric = gradient.transpose() * gradient;
-    terms.geometric +=
-        2 * geometry.point_volumes[p] / mass *
-        Eigen::SelfAdjointEigenSolver<Matrix3d>(metric, Eigen::EigenvaluesOnly).eigenvalues()[2];
   }
-  terms.material = highest(k) / mass;
-  return terms;
+  return highest(k) * 8 / (density * geometry.volume);
 }
 
 double one_point_exact(const HexahedronGeometry& geometry, const PartConstants& part,

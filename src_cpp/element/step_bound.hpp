@@ -7,9 +7,8 @@
 namespace cdfp {
 
 /// omega^2 <= max(material, hourglass) + coupling sqrt(material hourglass) of the undeformed element (1/s2).
-/// material: exact for the uniform strains (full integration: for all); hourglass: for the rest; coupling: of
-/// their subspaces (Kittaneh 1997), zero for parallelepipeds. geometric: times a stress in Pa, it bounds what
-/// that stress adds.
+/// material: exact for the uniform strains; hourglass: for the rest; coupling: of their subspaces (Kittaneh
+/// 1997), zero for parallelepipeds. geometric: times a stress in Pa, it bounds what that stress adds.
 struct StepTerms {
   double material = 0, hourglass = 0, coupling = 0, geometric = 0;
   double bound() const;
@@ -19,7 +18,8 @@ StepTerms one_point_terms(const HexahedronGeometry& geometry, const PartConstant
                           const Eigen::Vector3d& hourglass, double density);
 StepTerms full_terms(const HexahedronGeometry& geometry, const PartConstants& part, double density);
 
-/// The one-point element's bound without slack, by solving the eigenproblem of the element.
+/// Without slack, by solving the eigenproblem of the element.
+double full_exact(const HexahedronGeometry& geometry, const PartConstants& part, double density);
 double one_point_exact(const HexahedronGeometry& geometry, const PartConstants& part,
                        const Eigen::Vector3d& hourglass, double density);
 
