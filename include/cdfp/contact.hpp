@@ -66,8 +66,8 @@ struct SurfaceView {
 /// 4.1). A pair is a node in a segment's box grown by the buffer, or two edges whose boxes are at most the
 /// buffer apart along every axis; entities that share a node do not pair.
 ///
-/// The cells of a row lie side by side in a table that is never longer than twice the entities: where the
-/// space has more cells, rows are folded onto one another. Time and memory are linear in the entities.
+/// The cells of a row lie side by side in a table that is never longer than four times the entities: where
+/// the space has more cells, rows are folded onto one another. Time and memory are linear in the entities.
 class ContactSearch {
  public:
   /// `cell_factor` w1 and `buffer_factor` w2: cell and buffer over the mean segment length.

@@ -34,24 +34,25 @@ inline bool overlap(const Corner& low_a, const Corner& high_a, const Corner& low
 }
 
 /// Cells of one length over a box of space; what lies outside counts to the border cells. If the space has
-/// more than two cells an entity, rows are folded onto one another, and an entry is checked for its row.
+/// more slices of cells than four an entity, rows are folded onto one another, and an entry is checked for
+/// its row.
 template <class Entry>
 class CellTable {
  public:
   void reset(const Corner& low, const Corner& high, double length, std::size_t entities) {
     origin_ = low;
-    per_length_ = 1 / length;
+    per_length_ = {kSlices / length, 1 / length, 1 / length};
     double cells = 1;
     for (int d = 0; d < 3; ++d) {
-      const double n = std::min((high[d] - low[d]) * per_length_ + 1, double(kMostCells));
+      const double n = std::min((high[d] - low[d]) * per_length_[d] + 1, double(kMostCells));
       count_[d] = static_cast<std::int32_t>(n);
       cells *= count_[d];
     }
-    const std::size_t limit = std::max<std::size_t>(2 * entities, kShortest);
+    const std::size_t limit = std::max<std::size_t>(kSlices * entities, kShortest);
     folded_ = cells > static_cast<double>(limit);
     if (folded_) {
       std::size_t size = kShortest;
-      while (2 * size <= limit) size *= 2;
+      while (2 * size < limit) size *= 2;
       mask_ = static_cast<std::uint32_t>(size - 1);
       row_stride_ = 0x9E3779B1u;
       layer_stride_ = 0x85EBCA77u;
@@ -135,9 +136,10 @@ class CellTable {
  private:
   static constexpr std::int32_t kMostCells = 1 << 30;
   static constexpr std::size_t kShortest = 256;
+  static constexpr std::int32_t kSlices = 4;  // of a cell along its row: slices side by side cost no look-up
 
   std::int32_t cell(double x, int d) const {
-    const double c = (x - origin_[d]) * per_length_;
+    const double c = (x - origin_[d]) * per_length_[d];
     return c > 0 ? static_cast<std::int32_t>(std::min(c, double(count_[d] - 1))) : 0;
   }
   std::uint32_t slot(const Corner& x) const {
@@ -161,7 +163,7 @@ class CellTable {
   }
 
   Corner origin_{};
-  double per_length_ = 1;
+  Corner per_length_{1, 1, 1};
   std::array<std::int32_t, 3> count_{1, 1, 1};
   bool folded_ = false;
   std::uint32_t mask_ = ~0u, row_stride_ = 1, layer_stride_ = 1, size_ = 0;
