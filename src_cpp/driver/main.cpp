@@ -40,6 +40,7 @@ int run(const std::string& case_file, const std::string& folder, int threads) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): nothing is left to do when memory runs out in CLI11
 int main(int argc, char** argv) {
   CLI::App app{"Explicit finite elements for impact fracture of laminated glass", "cdfp"};
   app.set_version_flag("--version", "cdfp " CDFP_VERSION);
