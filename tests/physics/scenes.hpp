@@ -67,6 +67,7 @@ inline Model with_part(Model model, const std::string& name, const ElasticMateri
   part.material = name;
   part.formulation = formulation;
   model.parts.push_back(part);
+  model.threads = 1;  // small meshes: threads would only wait for one another
   return model;
 }
 
