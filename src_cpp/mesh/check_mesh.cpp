@@ -103,32 +103,30 @@ void check_numbers(const Mesh& mesh, const std::vector<std::size_t>& first) {
   }
 }
 
+[[noreturn]] void refuse_shape(const Mesh& mesh, std::size_t element, Index corner, Index node,
+                               bool inverted) {
+  refuse("element " + number(element) + " (" + bulk_shape(mesh.types[element])->name + ", part '" +
+         mesh.part_names[static_cast<std::size_t>(mesh.parts[element])] + "') is " +
+         (inverted ? "inverted" : "degenerate") + " at node " + std::to_string(node) + " (corner " +
+         std::to_string(corner) + ") " + point(mesh, node) +
+         (inverted ? ": the Jacobian is negative; check the order of its corners (as in the VTK linear "
+                     "cells) and where its nodes lie"
+                   : ": its edges there have no volume; merge the coinciding nodes or move them apart"));
+}
+
 void check_shapes(const Mesh& mesh, const std::vector<std::size_t>& first) {
   for (std::size_t e = 0; e < mesh.types.size(); ++e) {
-    const ElementShape& shape = *bulk_shape(mesh.types[e]);
     const Index* corners = &mesh.connectivity[first[e]];
     const auto at = [&](Index corner) {
       return Vec3::load(&mesh.coordinates[3 * static_cast<std::size_t>(corners[corner])]);
     };
-    for (const CornerFrame& f : shape.frames) {
+    for (const CornerFrame& f : bulk_shape(mesh.types[e])->frames) {
       const Vec3 a = at(f[1]) - at(f[0]);
       const Vec3 b = at(f[2]) - at(f[0]);
       const Vec3 c = at(f[3]) - at(f[0]);
       const double volume = dot(cross(a, b), c);
       const double size = norm(a) * norm(b) * norm(c);
-      if (volume > kFlat * size) continue;
-      const Index node = corners[f[0]];
-      const std::string where = "element " + number(e) + " (" + shape.name + ", part '" +
-                                mesh.part_names[static_cast<std::size_t>(mesh.parts[e])] + "') is ";
-      const std::string at_node =
-          " at node " + std::to_string(node) + " (corner " + std::to_string(f[0]) + ") " + point(mesh, node);
-      if (volume < -kFlat * size) {
-        refuse(where + "inverted" + at_node +
-               ": the Jacobian is negative; check the order of its corners (as in the VTK linear cells) and "
-               "where its nodes lie");
-      }
-      refuse(where + "degenerate" + at_node +
-             ": its edges there have no volume; merge the coinciding nodes or move them apart");
+      if (!(volume > kFlat * size)) refuse_shape(mesh, e, f[0], corners[f[0]], volume < -kFlat * size);
     }
   }
 }

@@ -58,6 +58,7 @@ std::vector<FacetUse> sheet_facets(const QuadMesh& plane, double half_width, Ind
     return first_element + (first_layer + layer) * quads + q;
   };
   std::vector<FacetUse> facets;
+  facets.reserve(2 * plane.quads.size());
   for (Index q = 0; q < quads; ++q) facets.push_back({element(0, q), 0});
   for (Index q = 0; q < quads; ++q) facets.push_back({element(layers - 1, q), 1});
   for (Index q = 0; q < quads; ++q) {

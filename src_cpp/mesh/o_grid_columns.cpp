@@ -88,7 +88,7 @@ class OGrid {
     const double between = 0.5 * (radius_ + next);
     for (Index s = 0; s < n; s += 2) {
       const auto inner = static_cast<std::size_t>(s);
-      const auto outer = static_cast<std::size_t>(2 * s);
+      const std::size_t outer = 2 * inner;
       const Index a = rim_[inner], b = rim_[inner + 1], c = rim_[inner + 2];
       const auto add = [&](double offset) { return add_point(between, (s + offset) / n); };
       const Index x = add(0.55), y = add(1), z = add(1.45);
