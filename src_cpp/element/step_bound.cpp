@@ -86,8 +86,8 @@ double stiffest(const PartConstants& part, const Vector3d& g) {
 StepTerms mean_terms(const HexahedronGeometry& geometry, const PartConstants& part, double density) {
   const double lambda = part.material.lambda, mu = part.material.mu;
   const Matrix3d metric = geometry.gradient.transpose() * geometry.gradient;
-  const Vector3d squares =
-      Eigen::SelfAdjointEigenSolver<Matrix3d>(metric, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(metric, Eigen::EigenvaluesOnly);
+  const Vector3d& squares = principal.eigenvalues();
   const Vector3d roots = squares.cwiseSqrt();
   Matrix3d normal = lambda * roots * roots.transpose();
   normal.diagonal() += 2 * mu * squares;
