@@ -114,7 +114,8 @@ class OGrid {
 QuadMesh o_grid_columns(Index count) {
   const double mean_width = 1 / std::sqrt(static_cast<double>(count));
   QuadMesh best;
-  for (double factor = 0.85; factor < 1.3; factor += 0.005) {
+  for (int trial = 0; trial < 90; ++trial) {
+    const double factor = 0.85 + 0.005 * trial;
     const double width = std::min(factor * mean_width, 0.8 / kDiscRadius);
     QuadMesh mesh = OGrid(width).build();
     const auto miss = [count](const QuadMesh& m) {
