@@ -19,7 +19,8 @@ echo "== Address and undefined-behaviour sanitizers"
 cmake -S . -B build-sanitize -DCMAKE_BUILD_TYPE=None -DCDFP_SANITIZE=ON >build.log 2>&1 || { cat build.log; exit 1; }
 cmake --build build-sanitize -j "$jobs" >>build.log 2>&1 || { tail -n 60 build.log; exit 1; }
 rm -f build.log
-ASAN_OPTIONS=detect_leaks=1 ctest --test-dir build-sanitize --output-on-failure -j "$jobs"
+ASAN_OPTIONS=detect_leaks=1 LSAN_OPTIONS=suppressions=$PWD/tests/leaks.supp:print_suppressions=0 \
+  ctest --test-dir build-sanitize --output-on-failure -j "$jobs"
 
 echo "== Format and lint"
 mapfile -t sources < <(git ls-files '*.cpp' '*.hpp' '*.h')

@@ -41,7 +41,8 @@ struct VertexUse {
 struct FacetNodes {
   std::array<Index, 4> nodes{kNone, kNone, kNone, kNone};
   Index count = 0;
-  std::span<const Index> view() const { return {nodes.data(), static_cast<std::size_t>(count)}; }
+  std::span<const Index> view() const& { return {nodes.data(), static_cast<std::size_t>(count)}; }
+  std::span<const Index> view() const&& = delete;
 };
 
 /// What one cohesive insertion changed; a driver updates its own arrays from it.

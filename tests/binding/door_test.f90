@@ -302,7 +302,7 @@ contains
     call check(all(abs(v(3, :) + 10*(t + sim%step_size()/2)) < 1e-9_dp), 'velocities half a step ahead')
     call check(abs(sum(f(3, :)) + 50000) < 1e-6_dp, 'weight')
     energy = sim%energies()
-    call check(abs(energy%balance - 1) < 1e-3_dp .and. energy%kinetic > 2500, 'energies')
+    call check(abs(energy%balance - 1) < 1e-9_dp .and. energy%kinetic > 2500, 'energies')
     element = sim%controlling_element()
     call check(element == 1 .or. element == 2, 'elements from 1')
     call check(.not. sim%finished(), 'under way')

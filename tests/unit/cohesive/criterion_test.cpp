@@ -125,7 +125,8 @@ TEST(Criterion, MirroredFacetsCarryTheSameTraction) {
   ASSERT_GT(open.size(), 8u);
   const auto centre = [&](const OpenFacet& f) {
     Vec3 sum;
-    for (const Index n : body.topology.facet_nodes(f.lower).view()) sum += body.nodes.x0(n);
+    const auto corners = body.topology.facet_nodes(f.lower);
+    for (const Index n : corners.view()) sum += body.nodes.x0(n);
     return 0.25 * sum;
   };
   for (const OpenFacet& f : open) {
