@@ -259,15 +259,18 @@ contains
     real(c_double), contiguous, intent(in), optional :: times(:)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
+    real(c_double), allocatable :: instants(:)
 
     if (present(times)) then
       if (size(times) /= size(values)) then
         call refuse('add_prescribed_velocity: there must be one value for each time', stat, errmsg)
         return
       end if
+      instants = times
     end if
+    ! an array that is not allocated is an absent argument
     call report(cdfp_model_add_prescribed_velocity(this%handle%address, c_text(node_set), flags(directions), &
-                                                   size(values, kind=c_int64_t), times, values), stat, errmsg)
+                                                   size(values, kind=c_int64_t), instants, values), stat, errmsg)
   end subroutine
 
   !> Of a deformable part.
