@@ -20,6 +20,19 @@
 #endif
 #define CDFP_INLINE [[gnu::always_inline]] inline
 
+#if defined(__GLIBC__) && defined(__x86_64__)
+// glibc's vector mathematics; named by the vector function ABI of x86-64.
+extern "C" {
+#if defined(__AVX512F__) && defined(__AVX512VL__) && defined(__AVX512DQ__)
+__m512d _ZGVeN8vv_pow(__m512d, __m512d);
+#elif defined(__AVX2__)
+__m256d _ZGVdN4vv_pow(__m256d, __m256d);
+#else
+__m128d _ZGVbN2vv_pow(__m128d, __m128d);
+#endif
+}
+#endif
+
 namespace cdfp::CDFP_ISA {
 
 #if defined(__AVX512F__) && defined(__AVX512VL__) && defined(__AVX512DQ__)
@@ -97,6 +110,23 @@ CDFP_INLINE Pack square_root(Pack a) {
   return Pack(Pack::Vector(_mm_sqrt_pd(a.v)));
 #else
   return each_lane<Pack>([&](int lane) { return __builtin_sqrt(a[lane]); });
+#endif
+}
+
+/// x^n of each lane, x >= 0.
+CDFP_INLINE double power(double x, double n) {
+  return __builtin_pow(x, n);
+}
+CDFP_INLINE Pack power(Pack x, double n) {
+  const Pack exponent(n);
+#if !defined(__GLIBC__) || !defined(__x86_64__)
+  return each_lane<Pack>([&](int lane) { return __builtin_pow(x[lane], n); });
+#elif defined(__AVX512F__) && defined(__AVX512VL__) && defined(__AVX512DQ__)
+  return Pack(Pack::Vector(_ZGVeN8vv_pow(x.v, exponent.v)));
+#elif defined(__AVX2__)
+  return Pack(Pack::Vector(_ZGVdN4vv_pow(x.v, exponent.v)));
+#else
+  return Pack(Pack::Vector(_ZGVbN2vv_pow(x.v, exponent.v)));
 #endif
 }
 

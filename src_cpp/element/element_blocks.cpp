@@ -21,6 +21,9 @@ constexpr std::size_t kMostBlocksATask = 32;
 constexpr std::size_t kTasksWanted = 128;
 
 BlockKind kind_of(const PartPlan& plan, bool prism) {
+  if (plan.full && prism) {
+    return plan.rate_dependent ? BlockKind::full_prism_rate_dependent : BlockKind::full_prism_elastic;
+  }
   if (plan.full) return plan.rate_dependent ? BlockKind::full_rate_dependent : BlockKind::full_elastic;
   if (prism) return plan.rate_dependent ? BlockKind::prism_rate_dependent : BlockKind::prism_elastic;
   return plan.rate_dependent ? BlockKind::hexahedron_rate_dependent : BlockKind::hexahedron_elastic;
@@ -50,13 +53,16 @@ void write_constants(BlockKind kind, const HexahedronGeometry& geometry, const E
       for (int axis = 0; axis < 3; ++axis) write(3 * mode + axis, geometry.b(mode, axis));
     }
   };
+  const auto prism_gradient = [&] {
+    const Eigen::Matrix<double, 7, 3>& b = geometry.b;
+    const double kept[] = {b(0, 0), b(0, 1), b(1, 0), b(1, 1), b(2, 2), b(3, 2), b(4, 2)};
+    for (int i = 0; i < 7; ++i) write(i, kept[i]);
+  };
   switch (kind) {
     case BlockKind::prism_elastic:
     case BlockKind::prism_rate_dependent: {
       using Shape = host::Prism;
-      const Eigen::Matrix<double, 7, 3>& b = geometry.b;
-      const double kept[] = {b(0, 0), b(0, 1), b(1, 0), b(1, 1), b(2, 2), b(3, 2), b(4, 2)};
-      for (int i = 0; i < 7; ++i) write(Shape::kGradient + i, kept[i]);
+      prism_gradient();
       for (int i = 0; i < 2; ++i) write(Shape::kMoments + i, geometry.moments(2, i));
       for (int i = 0; i < 3; ++i) write(Shape::kStiffness + i, g[i]);
       write(Shape::kVolume, geometry.volume);
@@ -75,11 +81,25 @@ void write_constants(BlockKind kind, const HexahedronGeometry& geometry, const E
       write(Shape::kVolume, geometry.volume);
       return;
     }
+    case BlockKind::full_prism_elastic:
+    case BlockKind::full_prism_rate_dependent: {
+      using Shape = host::PrismPoints;
+      prism_gradient();
+      write(Shape::kAcross, geometry.to_points[0](2, 2));
+      for (int p = 0; p < 4; ++p) {
+        const int first = Shape::kPoint + Shape::kPerPoint * p;
+        for (int axis = 0; axis < 2; ++axis) {
+          for (int j = 0; j < 2; ++j) write(first + 2 * axis + j, geometry.to_points[p](axis, j));
+        }
+        write(first + 4, geometry.point_volumes[p]);
+      }
+      return;
+    }
     case BlockKind::full_elastic:
     case BlockKind::full_rate_dependent: {
-      using Shape = host::FullIntegration;
+      using Shape = host::HexahedronPoints;
       gradient();
-      for (int p = 0; p < Shape::kPoints; ++p) {
+      for (int p = 0; p < 8; ++p) {
         const int first = Shape::kPoint + Shape::kPerPoint * p;
         for (int axis = 0; axis < 3; ++axis) {
           for (int j = 0; j < 3; ++j) write(first + 3 * axis + j, geometry.to_points[p](axis, j));

@@ -13,19 +13,110 @@
 
 namespace cdfp::CDFP_ISA {
 
+/// The line of points along `axis` through `point`, by the signs of its two companions.
+CDFP_INLINE constexpr int line_of(int point, int axis) {
+  return axis == 0 ? point >> 1 : axis == 1 ? (point & 1) | (point >> 1 & 2) : point & 3;
+}
+
+/// Points of any hexahedron. Constants: mean gradient (7 x 3), then for each point d(xi_m)/dX_j / 8 (3 x 3)
+/// and its volume.
+struct HexahedronPoints {
+  using Mean = Hexahedron;
+  static constexpr int kPoint = 21, kPerPoint = 10;
+  static constexpr int kConstants = kPoint + 8 * kPerPoint;
+
+  /// F (columns) of a point, from 8 dx/dxi on the lines along each axis.
+  template <class T>
+  CDFP_INLINE static void gradient(const double* constants, const T (&tangent)[3][4][3], int point,
+                                   T (&f)[3][3]) {
+    for (int j = 0; j < 3; ++j) {
+      for (int d = 0; d < 3; ++d) f[j][d] = T(0.0);
+      for (int axis = 0; axis < 3; ++axis) {
+        const T g = inverse<T>(constants, point, axis, j);
+        for (int d = 0; d < 3; ++d) f[j][d] += g * tangent[axis][line_of(point, axis)][d];
+      }
+    }
+  }
+
+  /// Adds to `pull` (the transpose of `tangent`) what dW/dF (columns p) of a point gives.
+  template <class T>
+  CDFP_INLINE static void add_pull(const double* constants, const T (&p)[3][3], int point,
+                                   T (&pull)[3][4][3]) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int j = 0; j < 3; ++j) {
+        const T g = inverse<T>(constants, point, axis, j);
+        for (int d = 0; d < 3; ++d) pull[axis][line_of(point, axis)][d] += g * p[j][d];
+      }
+    }
+  }
+
+  template <class T>
+  CDFP_INLINE static T volume(const double* constants, int point) {
+    return load<T>(constants + (kPoint + kPerPoint * point + 9) * kLanes);
+  }
+
+ private:
+  template <class T>
+  CDFP_INLINE static T inverse(const double* constants, int point, int axis, int j) {
+    return load<T>(constants + (kPoint + kPerPoint * point + 3 * axis + j) * kLanes);
+  }
+};
+
+/// Points of an element extruded along zeta (see Prism). Constants: mean gradient (7), d(zeta)/dZ / 8, then
+/// for each pair of points over one another d(xi, eta)/d(X, Y) / 8 (2 x 2) and the volume of one.
+struct PrismPoints {
+  using Mean = Prism;
+  static constexpr int kAcross = 7, kPoint = 8, kPerPoint = 5;
+  static constexpr int kConstants = kPoint + 4 * kPerPoint;
+
+  template <class T>
+  CDFP_INLINE static void gradient(const double* constants, const T (&tangent)[3][4][3], int point,
+                                   T (&f)[3][3]) {
+    const T across = load<T>(constants + kAcross * kLanes);
+    for (int j = 0; j < 2; ++j) {
+      const T g = inverse<T>(constants, point, 0, j), h = inverse<T>(constants, point, 1, j);
+      for (int d = 0; d < 3; ++d) {
+        f[j][d] = g * tangent[0][line_of(point, 0)][d] + h * tangent[1][line_of(point, 1)][d];
+      }
+    }
+    for (int d = 0; d < 3; ++d) f[2][d] = across * tangent[2][line_of(point, 2)][d];
+  }
+
+  template <class T>
+  CDFP_INLINE static void add_pull(const double* constants, const T (&p)[3][3], int point,
+                                   T (&pull)[3][4][3]) {
+    const T across = load<T>(constants + kAcross * kLanes);
+    for (int axis = 0; axis < 2; ++axis) {
+      const T g = inverse<T>(constants, point, axis, 0), h = inverse<T>(constants, point, axis, 1);
+      for (int d = 0; d < 3; ++d) pull[axis][line_of(point, axis)][d] += g * p[0][d] + h * p[1][d];
+    }
+    for (int d = 0; d < 3; ++d) pull[2][line_of(point, 2)][d] += across * p[2][d];
+  }
+
+  template <class T>
+  CDFP_INLINE static T volume(const double* constants, int point) {
+    return load<T>(constants + (kPoint + kPerPoint * (point & 3) + 4) * kLanes);
+  }
+
+ private:
+  template <class T>
+  CDFP_INLINE static T inverse(const double* constants, int point, int axis, int j) {
+    return load<T>(constants + (kPoint + kPerPoint * (point & 3) + 2 * axis + j) * kLanes);
+  }
+};
+
+template <class Points>
 struct FullIntegration {
   static constexpr int kPoints = 8;
   static constexpr bool kHourglassFollowsLaw = true;  ///< non-uniform strains are the law's too
-  // Mean gradient (7 x 3, as Hexahedron), then for each point d(xi_m)/dX_j / 8 (3 x 3) and its volume.
-  static constexpr int kPoint = 21, kPerPoint = 10;
-  static constexpr int kConstants = kPoint + kPoints * kPerPoint;
+  static constexpr int kConstants = Points::kConstants;
 
   template <class T, class StressOf>
   CDFP_INLINE static T force(const PartConstants&, const double* constants, const T (&x)[8][3], T (&f)[8][3],
                              StressOf&& stress_of) {
     T m[kModes][3], mean[3][3], tangent[3][4][3], pull[3][4][3];
     to_modes(x, m);
-    Hexahedron::gradient(constants, m, mean);
+    Points::Mean::gradient(constants, m, mean);
     tangents(m, tangent);
     for (auto& axis : pull) {
       for (auto& line : axis) line[0] = line[1] = line[2] = T(0.0);
@@ -33,7 +124,7 @@ struct FullIntegration {
     const T mean_trace = trace_of(mean);
     T pressure(0.0), norm(0.0);
     for (int point = 0; point < kPoints; ++point) {
-      T grad[3][3];
+      T grad[3][3], p[3][3];
       Symmetric<T> strain;
       point_strain(constants, tangent, mean_trace, point, grad, strain);
       const Symmetric<T> s = stress_of(strain, point);
@@ -43,23 +134,17 @@ struct FullIntegration {
       pressure += w * third;
       const Symmetric<T> ws = w * Symmetric<T>{s.xx - third, s.yy - third, s.zz - third, s.xy, s.yz, s.xz};
       for (int d = 0; d < 3; ++d) {
-        const T p0 = grad[0][d] * ws.xx + grad[1][d] * ws.xy + grad[2][d] * ws.xz;
-        const T p1 = grad[0][d] * ws.xy + grad[1][d] * ws.yy + grad[2][d] * ws.yz;
-        const T p2 = grad[0][d] * ws.xz + grad[1][d] * ws.yz + grad[2][d] * ws.zz;
-        for (int axis = 0; axis < 3; ++axis) {
-          pull[axis][line_of(point, axis)][d] += p0 * inverse<T>(constants, point, axis, 0) +
-                                                 p1 * inverse<T>(constants, point, axis, 1) +
-                                                 p2 * inverse<T>(constants, point, axis, 2);
-        }
+        p[0][d] = grad[0][d] * ws.xx + grad[1][d] * ws.xy + grad[2][d] * ws.xz;
+        p[1][d] = grad[0][d] * ws.xy + grad[1][d] * ws.yy + grad[2][d] * ws.yz;
+        p[2][d] = grad[0][d] * ws.xz + grad[1][d] * ws.yz + grad[2][d] * ws.zz;
       }
+      Points::add_pull(constants, p, point, pull);
     }
     for (auto& column : mean) {
       for (T& component : column) component *= pressure;
     }
     collect(pull, m);
-    for (int a = 0; a < kModes; ++a) {
-      for (int d = 0; d < 3; ++d) m[a][d] += Hexahedron::along_gradient(constants, mean, a, d);
-    }
+    Points::Mean::add_mean(constants, mean, m);
     to_corners(m, f);
     return norm;
   }
@@ -103,7 +188,7 @@ struct FullIntegration {
 
   template <class T>
   CDFP_INLINE static T volume(const double* constants, int point) {
-    return load<T>(constants + (kPoint + kPerPoint * point + 9) * kLanes);
+    return Points::template volume<T>(constants, point);
   }
 
  private:
@@ -117,7 +202,7 @@ struct FullIntegration {
   CDFP_INLINE static void each_point(const double* constants, const T (&x)[8][3], Use&& use) {
     T m[kModes][3], mean[3][3], tangent[3][4][3];
     to_modes(x, m);
-    Hexahedron::gradient(constants, m, mean);
+    Points::Mean::gradient(constants, m, mean);
     tangents(m, tangent);
     const T mean_trace = trace_of(mean);
     for (int point = 0; point < kPoints; ++point) {
@@ -126,16 +211,6 @@ struct FullIntegration {
       point_strain(constants, tangent, mean_trace, point, grad, strain);
       use(grad, strain, point);
     }
-  }
-
-  template <class T>
-  CDFP_INLINE static T inverse(const double* constants, int point, int axis, int j) {
-    return load<T>(constants + (kPoint + kPerPoint * point + 3 * axis + j) * kLanes);
-  }
-
-  /// The line of points along `axis` through `point`, by the signs of its two companions.
-  CDFP_INLINE static constexpr int line_of(int point, int axis) {
-    return axis == 0 ? point >> 1 : axis == 1 ? (point & 1) | (point >> 1 & 2) : point & 3;
   }
 
   /// 8 dx/dxi_axis on each line.
@@ -179,15 +254,9 @@ struct FullIntegration {
 
   /// F and Ebar of a point.
   template <class T>
-  CDFP_INLINE static void point_strain(const double* constants, const T (&t)[3][4][3], T mean_trace,
+  CDFP_INLINE static void point_strain(const double* constants, const T (&tangent)[3][4][3], T mean_trace,
                                        int point, T (&grad)[3][3], Symmetric<T>& strain) {
-    for (int j = 0; j < 3; ++j) {
-      for (int d = 0; d < 3; ++d) grad[j][d] = T(0.0);
-      for (int axis = 0; axis < 3; ++axis) {
-        const T g = inverse<T>(constants, point, axis, j);
-        for (int d = 0; d < 3; ++d) grad[j][d] += g * t[axis][line_of(point, axis)][d];
-      }
-    }
+    Points::gradient(constants, tangent, point, grad);
     green_strain(grad, strain);
     const T correction = (mean_trace - strain.trace()) * T(1.0 / 3);
     strain.xx += correction, strain.yy += correction, strain.zz += correction;

@@ -13,10 +13,12 @@ enum class BlockKind : int {
   prism_rate_dependent,
   hexahedron_elastic,
   hexahedron_rate_dependent,
+  full_prism_elastic,
+  full_prism_rate_dependent,
   full_elastic,
   full_rate_dependent
 };
-inline constexpr int kBlockKinds = 6;
+inline constexpr int kBlockKinds = 8;
 
 struct BlockKernel {
   int constants = 0;  ///< components an element

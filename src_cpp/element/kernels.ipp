@@ -140,7 +140,9 @@ const Kernels CDFP_KERNELS{
       CDFP_ISA::kernel<CDFP_ISA::OnePoint<CDFP_ISA::Prism>, CDFP_ISA::RateDependent>(),
       CDFP_ISA::kernel<CDFP_ISA::OnePoint<CDFP_ISA::Hexahedron>, CDFP_ISA::Elastic>(),
       CDFP_ISA::kernel<CDFP_ISA::OnePoint<CDFP_ISA::Hexahedron>, CDFP_ISA::RateDependent>(),
-      CDFP_ISA::kernel<CDFP_ISA::FullIntegration, CDFP_ISA::Elastic>(),
-      CDFP_ISA::kernel<CDFP_ISA::FullIntegration, CDFP_ISA::RateDependent>()}}};
+      CDFP_ISA::kernel<CDFP_ISA::FullIntegration<CDFP_ISA::PrismPoints>, CDFP_ISA::Elastic>(),
+      CDFP_ISA::kernel<CDFP_ISA::FullIntegration<CDFP_ISA::PrismPoints>, CDFP_ISA::RateDependent>(),
+      CDFP_ISA::kernel<CDFP_ISA::FullIntegration<CDFP_ISA::HexahedronPoints>, CDFP_ISA::Elastic>(),
+      CDFP_ISA::kernel<CDFP_ISA::FullIntegration<CDFP_ISA::HexahedronPoints>, CDFP_ISA::RateDependent>()}}};
 
 }  // namespace cdfp

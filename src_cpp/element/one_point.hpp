@@ -62,19 +62,19 @@ struct Hexahedron {
         for (int d = 0; d < 3; ++d) p[i][d] -= h * r[a][d];
       }
     }
-    for (int a = 0; a < kModes; ++a) {
-      for (int d = 0; d < 3; ++d) {
-        const T along = along_gradient(constants, p, a, d);
-        r[a][d] = a < 3 ? along : r[a][d] + along;
-      }
-    }
+    for (int a = 0; a < 3; ++a) r[a][0] = r[a][1] = r[a][2] = T(0.0);
+    add_mean(constants, p, r);
   }
 
-  /// sum_i b_ia p_i, component d
+  /// Adds to dW/dm what dW/dF (columns p) of the mean gradient gives.
   template <class T>
-  CDFP_INLINE static T along_gradient(const double* constants, const T (&p)[3][3], int a, int d) {
-    return at<T>(constants, 3 * a) * p[0][d] + at<T>(constants, 3 * a + 1) * p[1][d] +
-           at<T>(constants, 3 * a + 2) * p[2][d];
+  CDFP_INLINE static void add_mean(const double* constants, const T (&p)[3][3], T (&r)[kModes][3]) {
+    for (int a = 0; a < kModes; ++a) {
+      for (int i = 0; i < 3; ++i) {
+        const T b = at<T>(constants, 3 * a + i);
+        for (int d = 0; d < 3; ++d) r[a][d] += b * p[i][d];
+      }
+    }
   }
 
  private:
@@ -111,14 +111,22 @@ struct Prism {
   template <class T>
   CDFP_INLINE static void modal_force(const double* constants, T (&p)[3][3], T (&r)[kModes][3]) {
     const T hx = at<T>(constants, kMoments), hy = at<T>(constants, kMoments + 1);
-    T b[7];
-    for (int k = 0; k < 7; ++k) b[k] = at<T>(constants, k);
     for (int d = 0; d < 3; ++d) {
       p[0][d] -= hx * r[5][d];
       p[1][d] -= hy * r[5][d];
-      r[0][d] = b[0] * p[0][d] + b[1] * p[1][d];
-      r[1][d] = b[2] * p[0][d] + b[3] * p[1][d];
-      r[2][d] = b[4] * p[2][d];
+      r[0][d] = r[1][d] = r[2][d] = T(0.0);
+    }
+    add_mean(constants, p, r);
+  }
+
+  template <class T>
+  CDFP_INLINE static void add_mean(const double* constants, const T (&p)[3][3], T (&r)[kModes][3]) {
+    T b[7];
+    for (int k = 0; k < 7; ++k) b[k] = at<T>(constants, k);
+    for (int d = 0; d < 3; ++d) {
+      r[0][d] += b[0] * p[0][d] + b[1] * p[1][d];
+      r[1][d] += b[2] * p[0][d] + b[3] * p[1][d];
+      r[2][d] += b[4] * p[2][d];
       r[3][d] += b[5] * p[2][d];
       r[4][d] += b[6] * p[2][d];
     }

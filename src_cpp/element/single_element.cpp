@@ -24,10 +24,14 @@ void for_kind(BlockKind kind, Visit&& visit) {
       return visit.template operator()<OnePoint<Hexahedron>, Elastic>();
     case BlockKind::hexahedron_rate_dependent:
       return visit.template operator()<OnePoint<Hexahedron>, RateDependent>();
+    case BlockKind::full_prism_elastic:
+      return visit.template operator()<FullIntegration<PrismPoints>, Elastic>();
+    case BlockKind::full_prism_rate_dependent:
+      return visit.template operator()<FullIntegration<PrismPoints>, RateDependent>();
     case BlockKind::full_elastic:
-      return visit.template operator()<FullIntegration, Elastic>();
+      return visit.template operator()<FullIntegration<HexahedronPoints>, Elastic>();
     case BlockKind::full_rate_dependent:
-      return visit.template operator()<FullIntegration, RateDependent>();
+      return visit.template operator()<FullIntegration<HexahedronPoints>, RateDependent>();
   }
 }
 

@@ -14,14 +14,6 @@
 
 namespace cdfp::CDFP_ISA {
 
-/// x^n of each lane, x >= 0.
-CDFP_INLINE double power(double x, double n) {
-  return __builtin_pow(x, n);
-}
-CDFP_INLINE Pack power(Pack x, double n) {
-  return each_lane<Pack>([&](int lane) { return __builtin_pow(x[lane], n); });
-}
-
 struct RateDependent {
   // strain and S_v at the last step, smoothed rate, E_v, dissipated energy density
   static constexpr int kStrain = 0, kStress = 6, kRate = 12, kModulus = 13, kDissipated = 14;
