@@ -113,15 +113,19 @@ void SurfaceContact::Stages::look_at_node(const double* x, Index active) {
     const Plane& face = planes[segment];
     const Vec3 from_centre = p - face.centre;
     const double height = dot(face.normal, from_centre);
-    const double deepest_gap = settings.depth_limit * surface.data(segment).height;
-    const double reach = (1 + kRidge) * (face.radius + travel);
     const double above = height - face.warp;
-    const double below = -height - face.warp - deepest_gap;
     // Most candidates leave here, those that rest on the face with no gap among them.
-    if (above > kNoGap * face.radius || below > 0) {
-      room = std::min(room, std::max({above, below, 0.0}));
+    if (above > kNoGap * face.radius) {
+      room = std::min(room, std::max(above, 0.0));
       return;
     }
+    const double deepest_gap = settings.depth_limit * surface.data(segment).height;
+    const double below = -height - face.warp - deepest_gap;
+    if (below > 0) {
+      room = std::min(room, below);
+      return;
+    }
+    const double reach = (1 + kRidge) * (face.radius + travel);
     const double distance2 = dot(from_centre, from_centre);
     if (distance2 > (reach + deepest_gap) * (reach + deepest_gap)) {
       room = std::min(room, std::sqrt(distance2) - reach - deepest_gap);

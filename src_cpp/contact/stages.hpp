@@ -70,7 +70,7 @@ struct SurfaceContact::Stages {
   };
   /// A segment's mean plane, and how far its points lie from centre (when it became a candidate: since then
   /// by the travel more at most) and plane.
-  struct Plane {
+  struct alignas(64) Plane {
     Vec3 centre, normal;
     double radius = 0, warp = 0;
   };
