@@ -64,10 +64,11 @@ void SurfaceContact::Stages::place_plane(const double* x, Index segment) {
   face.warp = std::abs(dot(face.normal, a - face.centre));
 }
 
-FacePoint SurfaceContact::Stages::project(const double* x, Vec3 p, Index segment) const {
+FacePoint SurfaceContact::Stages::project(const double* x, Vec3 p, Index segment, double xi,
+                                          double eta) const {
   const Index* c = surface.corners(segment);
   const Vec3 corner[4] = {at(x, c[0]), at(x, c[1]), at(x, c[2]), c[3] == kNone ? Vec3{} : at(x, c[3])};
-  return c[3] == kNone ? project_on_triangle(p, corner) : project_on_quadrilateral(p, corner);
+  return c[3] == kNone ? project_on_triangle(p, corner) : project_on_quadrilateral(p, corner, xi, eta);
 }
 
 /// Mean of the unit normals of the node's own faces.
@@ -96,7 +97,7 @@ void SurfaceContact::Stages::look_at_node(const double* x, Index active) {
   // The face that holds the node keeps it while it stays under it.
   const Index held = holds[row].segment;
   if (held != kNone) {
-    const FacePoint point = project(x, p, held);
+    const FacePoint point = project(x, p, held, holds[row].xi, holds[row].eta);
     const Plane& face = planes[held];
     if (point.gap < kNoGap * face.radius && point.gap > -surface.data(held).height &&
         point.outside <= kBorder * face.radius - point.gap) {
@@ -265,6 +266,7 @@ void SurfaceContact::local_search(const Arrays& arrays, int threads) {
       touch.grip = hold.grip;
     }
     hold.segment = hit.segment;
+    hold.xi = hit.point.xi, hold.eta = hit.point.eta;
     hold.stamp = s.stamp;
   });
 

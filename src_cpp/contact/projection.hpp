@@ -12,6 +12,7 @@ namespace cdfp {
 
 struct FacePoint {
   std::array<double, 4> shape{};
+  double xi = 0, eta = 0;  ///< of a quadrilateral
   Vec3 normal;
   double gap = std::numeric_limits<double>::infinity();
   double outside = std::numeric_limits<double>::infinity();
@@ -20,14 +21,13 @@ struct FacePoint {
 /// Closest point of the bilinear face by Newton on (p - x(xi, eta)) . x_,xi = (p - x) . x_,eta = 0: exact for
 /// tapered and warped faces (the area coordinates of appendix E are exact for parallelograms only). There p -
 /// x is normal to the face, so the pair's forces have no moment, and the gap's derivative holds no change of
-/// xi, eta.
-inline FacePoint project_on_quadrilateral(Vec3 p, const Vec3* x) {
+/// xi, eta. Starts from `xi`, `eta`.
+inline FacePoint project_on_quadrilateral(Vec3 p, const Vec3* x, double xi = 0, double eta = 0) {
   const Vec3 c0 = 0.25 * (x[0] + x[1] + x[2] + x[3]);
   const Vec3 c1 = 0.25 * (x[1] + x[2] - x[0] - x[3]);
   const Vec3 c2 = 0.25 * (x[2] + x[3] - x[0] - x[1]);
   const Vec3 c3 = 0.25 * (x[0] + x[2] - x[1] - x[3]);
-  double xi = 0, eta = 0;
-  Vec3 along_xi = c1, along_eta = c2, rest = p - c0;
+  Vec3 along_xi = c1 + eta * c3, along_eta = c2 + xi * c3, rest = p - (c0 + xi * c1 + eta * along_eta);
   FacePoint point;
   for (int iteration = 0; iteration < 12; ++iteration) {
     const double r1 = dot(rest, along_xi), r2 = dot(rest, along_eta);
@@ -44,6 +44,7 @@ inline FacePoint project_on_quadrilateral(Vec3 p, const Vec3* x) {
     if (std::abs(step1) + std::abs(step2) < 1e-7) break;             // quadratic: what is left is below 1e-14
     if (iteration == 0 && dot(c3, c3) < 1e-26 * (a11 + a22)) break;  // a parallelogram: exact already
   }
+  point.xi = xi, point.eta = eta;
   const Vec3 n = cross(along_xi, along_eta);
   point.normal = n / norm(n);
   point.gap = dot(point.normal, rest);

@@ -65,7 +65,8 @@ struct SurfaceContact::Stages {
   struct Hold {
     Index segment = kNone;
     std::int32_t stamp = 0;
-    bool kept = false;  // the same segment as a step ago
+    bool kept = false;       // the same segment as a step ago
+    double xi = 0, eta = 0;  // where it was on the face
     Grip grip;
   };
   /// A segment's mean plane, and how far its points lie from centre (when it became a candidate: since then
@@ -119,7 +120,7 @@ struct SurfaceContact::Stages {
   Vec3 segment_normal(const double* x, Index segment) const;
   void place_plane(const double* x, Index segment);
   double segment_radius(const double* x, Index segment) const;
-  FacePoint project(const double* x, Vec3 p, Index segment) const;
+  FacePoint project(const double* x, Vec3 p, Index segment, double xi = 0, double eta = 0) const;
   Vec3 node_normal(const double* x, Index row) const;
   bool shares_element(Index row, Index segment) const;
   void look_at_node(const double* x, Index active);

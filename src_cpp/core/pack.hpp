@@ -22,6 +22,7 @@
 
 #if defined(__GLIBC__) && defined(__x86_64__)
 // glibc's vector mathematics; named by the vector function ABI of x86-64.
+// NOLINTBEGIN(bugprone-reserved-identifier)
 extern "C" {
 #if defined(__AVX512F__) && defined(__AVX512VL__) && defined(__AVX512DQ__)
 __m512d _ZGVeN8vv_pow(__m512d, __m512d);
@@ -31,6 +32,7 @@ __m256d _ZGVdN4vv_pow(__m256d, __m256d);
 __m128d _ZGVbN2vv_pow(__m128d, __m128d);
 #endif
 }
+// NOLINTEND(bugprone-reserved-identifier)
 #endif
 
 namespace cdfp::CDFP_ISA {

@@ -16,6 +16,7 @@ class Table {
     char value[160];
     std::va_list arguments;
     va_start(arguments, format);
+    // NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): it is started in the line above
     std::vsnprintf(value, sizeof value, format, arguments);
     va_end(arguments);
     char line[240];

@@ -123,6 +123,7 @@ struct FullIntegration {
     }
     const T mean_trace = trace_of(mean);
     T pressure(0.0), norm(0.0);
+#pragma GCC unroll 8
     for (int point = 0; point < kPoints; ++point) {
       T grad[3][3], p[3][3];
       Symmetric<T> strain;
