@@ -68,7 +68,8 @@ struct Simulation::Stages {
 
   void step();
   void record();
-  Energies energies() const;
+  Energies energies(const std::vector<PartEnergy>& parts) const;
+  std::vector<PartEnergy> part_energies() const { return elements.energies(nodes.position, threads); }
   Summary summary() const;
   Frame frame() const;
   bool finished() const { return time + 0.5 * step_size >= model.time.end * (1 + 1e-12); }
@@ -194,7 +195,8 @@ Simulation::Stages::Stages(Model given)
   for (RigidMotion& body : bodies) body.accelerate(kick, gravity(), nodes);
   if (moving) constraints.apply(0.5 * step_size, kick, nodes);
   kick = step_size;
-  initial_energy = energies().kinetic + energies().strain;
+  const Energies start = energies(part_energies());
+  initial_energy = start.kinetic + start.strain;
   record();
 }
 
@@ -348,7 +350,8 @@ void Simulation::Stages::warn_of_step() {
 }
 
 void Simulation::Stages::record() {
-  const Energies now = energies();
+  const std::vector<PartEnergy> parts = part_energies();
+  const Energies now = energies(parts);
   if (!std::isfinite(now.balance())) {
     const Index element = elements.first_inverted(nodes.position);
     const std::string at = element == kNone ? ""
@@ -363,17 +366,17 @@ void Simulation::Stages::record() {
   std::vector<Monitor::Body> shown;
   shown.reserve(bodies.size());
   for (const RigidMotion& body : bodies) shown.push_back({body.center(), body.velocity(), body.force()});
-  monitor.record(time, steps, step_size, now, elements.energies(nodes.position, threads),
+  monitor.record(time, steps, step_size, now, parts,
                  cohesive ? cohesive->count() : 0, cohesive ? cohesive->broken_count() : 0, shown);
 }
 
-Energies Simulation::Stages::energies() const {
+Energies Simulation::Stages::energies(const std::vector<PartEnergy>& parts) const {
   Energies sum;
   sum.initial = initial_energy;
   sum.external_work = external_work + work_ahead_;
   sum.kinetic = kinetic_energy(kick, nodes);
   for (const RigidMotion& body : bodies) sum.kinetic += body.kinetic_energy(kick);
-  for (const PartEnergy& part : elements.energies(nodes.position, threads)) {
+  for (const PartEnergy& part : parts) {
     sum.strain += part.strain;
     sum.hourglass += part.hourglass;
     sum.material_dissipated += part.dissipated;
@@ -542,7 +545,7 @@ Index Simulation::broken_count() const {
 }
 
 Energies Simulation::energies() const {
-  return stages_->energies();
+  return stages_->energies(stages_->part_energies());
 }
 const History& Simulation::history() const {
   return stages_->monitor.history();

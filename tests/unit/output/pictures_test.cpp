@@ -88,6 +88,29 @@ TEST(CrackPicture, a_broken_face_is_dark_in_all_four_quarters) {
   EXPECT_GT(drawn.darkest_near(across.x, across.y), 230);
 }
 
+TEST(CrackPicture, few_cracks_are_shown_from_near) {
+  const sample::ScratchFolder folder("near");
+  make_folder(folder.path());
+  CrackPicture picture = quarter_plate();
+  SeenFacet facet;
+  facet.count = 2;
+  facet.damage = 1;
+  facet.corners = {Point{0.002, 0.0}, Point{0.01, 0.008}};
+  picture.panels = {{1e-4, {facet}}};
+  draw_crack_picture(folder / "a.png", picture);
+  const Picture drawn(folder / "a.png");
+  // Cracks reach 10 mm to all sides: 26 mm over 1920 pixels.
+  const auto near_pixel = [](Point metres) {
+    return Point{1000 + metres.x * 1920 / 0.026, 182 + 960 - metres.y * 1920 / 0.026};
+  };
+  for (const double x : {-1.0, 1.0}) {
+    const Point middle = near_pixel({x * 0.006, 0.004});
+    EXPECT_LT(drawn.darkest_near(middle.x, middle.y), 60);
+  }
+  const Point beside = near_pixel({0.006, 0.006});
+  EXPECT_GT(drawn.darkest_near(beside.x, beside.y), 230);
+}
+
 TEST(CrackPicture, broken_lines_lie_above_fresh_ones_and_above_faces_in_the_plane) {
   const sample::ScratchFolder folder("order");
   make_folder(folder.path());

@@ -1,0 +1,437 @@
+// How fast, and how near to what the machine can do.
+//   benchmarks/run.sh speed [--large] [--keep] [--lulesh FILE]
+//     --large        also meshes of a million elements (some minutes)
+//     --keep         adds the figures to benchmarks/history/speed.csv
+//     --lulesh FILE  a LULESH 2.0 program, timed beside ours on 36^3 elements
+// CDFP_ISA=baseline, avx2 or avx512 picks an instruction set.
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cdfp/simulation.hpp"
+#include "driver/case_reader.hpp"
+#include "element/element_force.hpp"
+#include "element/full_integration.hpp"
+#include "element/kernels.hpp"
+#include "element/one_point.hpp"
+#include "integrator/central_difference.hpp"
+#include "material/elastic.hpp"
+#include "material/rate_dependent.hpp"
+#include "mesh/laminated_plate.hpp"
+#include "support/counted.hpp"
+#include "support/roofline.hpp"
+
+namespace {
+
+using namespace cdfp;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+// ---- elements
+// ----------------------------------------------------------------------------------------------
+
+enum class Shape { extruded, distorted };
+
+struct Work {
+  double operations, bytes;
+};
+
+/// Of one update of an element, its share of the nodes' advance included.
+template <class Formulation, class Law>
+Work work_of_update() {
+  using host::Counted;
+  std::vector<double> constants(std::size_t(Formulation::kConstants) * kLanes, 0.5);
+  std::vector<double> state(std::size_t(Formulation::kPoints * Law::kState + 1) * kLanes, 0.5);
+  Counted x[8][3], f[8][3];
+  const PartConstants part;
+  const StepConstants step{1, 0.5};
+  Counted::operations = 0;
+  Formulation::force(part, constants.data(), x, f, [&](const host::Symmetric<Counted>& strain, int point) {
+    return Law::advance(part.material, step, strain, &state[std::size_t(point * Law::kState) * kLanes]);
+  });
+  constexpr double kNodesAnElement = 1.25;  // of the plates below
+  const double assembly = 24;
+  const double advance = kNodesAnElement * (6 + 6 + 1);
+  const double constants_and_corners = 8.0 * Formulation::kConstants + 4 * 8;
+  const double of_state = 2 * 8.0 * Formulation::kPoints * Law::kState;
+  const double of_nodes = kNodesAnElement * 8 * (3 + 6 /* force */ + 9 + 3 /* drift */ + 9 + 1 /* kick */);
+  return {double(Counted::operations) + assembly + advance, constants_and_corners + of_state + of_nodes};
+}
+
+struct Scene {
+  const char* name;
+  Shape shape;
+  Formulation formulation;
+  bool rate_dependent;
+  Work work;
+  double wanted[2];  ///< M/s on one and two threads; 0: nothing is
+};
+
+Model plate(const Scene& scene, Index columns) {
+  constexpr Index kLayers = 4;
+  const Index side = columns + 1;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> shift(-0.15e-3, 0.15e-3);
+  Model model;
+  Mesh& mesh = model.mesh;
+  std::vector<double> columns_at(2 * std::size_t(side) * std::size_t(side));
+  for (double& c : columns_at) c = shift(random);
+  for (Index k = 0; k <= kLayers; ++k) {
+    for (Index j = 0; j < side; ++j) {
+      for (Index i = 0; i < side; ++i) {
+        const std::size_t column = 2 * std::size_t(i + side * j);
+        const double own = scene.shape == Shape::distorted ? shift(random) : 0;
+        mesh.coordinates.insert(
+            mesh.coordinates.end(),
+            {1.1e-3 * i + columns_at[column], 1.1e-3 * j + columns_at[column + 1], 0.83e-3 * k + own});
+      }
+    }
+  }
+  const auto node = [&](Index i, Index j, Index k) { return i + side * (j + side * k); };
+  for (Index k = 0; k < kLayers; ++k) {
+    for (Index j = 0; j < columns; ++j) {
+      for (Index i = 0; i < columns; ++i) {
+        for (Index up = k; up < k + 2; ++up) {
+          mesh.connectivity.insert(mesh.connectivity.end(), {node(i, j, up), node(i + 1, j, up),
+                                                             node(i + 1, j + 1, up), node(i, j + 1, up)});
+        }
+      }
+    }
+  }
+  const auto elements = std::size_t(kLayers) * std::size_t(columns) * std::size_t(columns);
+  mesh.types.assign(elements, ElementType::hexahedron);
+  mesh.parts.assign(elements, 0);
+  mesh.part_names = {"plate"};
+  if (scene.rate_dependent) {
+    model.materials.push_back({"law", RateDependentMaterial{1000, 0.49, 5.88e6, 29.21e6, 0.176, 1e-6}});
+  } else {
+    model.materials.push_back({"law", ElasticMaterial{2500, 74e9, 0.2}});
+  }
+  Part part;
+  part.name = "plate";
+  part.material = "law";
+  part.formulation = scene.formulation;
+  model.parts.push_back(part);
+  return model;
+}
+
+/// A plate whose nodes start with random velocities: each step moves them, sums the forces and accelerates.
+class MovingPlate {
+ public:
+  explicit MovingPlate(const Model& model) : nodes_(model.mesh.coordinates), elements_(model) {
+    elements_.add_mass(nodes_.mass);
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> speed(-0.1, 0.1);
+    for (double& v : nodes_.velocity) v = speed(random);
+    step_ = 0.5 * elements_.stable_step(nodes_.position, Threads(1)).step;
+  }
+
+  /// Seconds of the fastest step in `budget` seconds.
+  double least_step(int threads, double budget) {
+    const Threads pool(threads);
+    double least = INFINITY;
+    for (const auto begin = Clock::now(); seconds_since(begin) < budget;) {
+      const auto from = Clock::now();
+      drift(step_, nodes_, pool);
+      elements_.add_force(nodes_.position, nodes_.force, step_, pool);
+      accelerate(step_, nodes_, pool);
+      least = std::min(least, seconds_since(from));
+    }
+    return least;
+  }
+  std::size_t bytes() const { return elements_.memory(); }
+
+ private:
+  Nodes nodes_;
+  ElementForce elements_;
+  double step_;
+};
+
+// ---- results
+// -----------------------------------------------------------------------------------------------
+
+class Results {
+ public:
+  void add(const std::string& what, Index elements, int threads, double value, const char* unit) {
+    rows_.push_back(what + "," + std::to_string(elements) + "," + std::to_string(threads) + "," +
+                    std::to_string(value) + "," + unit);
+  }
+  void want(bool holds, const std::string& what) {
+    if (!holds) missed_ += (missed_.empty() ? "" : "; ") + what;
+  }
+  void keep(const char* file) const {
+    const bool is_new = !std::ifstream(file).good();
+    std::ofstream out(file, std::ios::app);
+    if (is_new) out << "date,processor,instructions,what,elements,threads,value,unit\n";
+    char date[16];
+    const std::time_t now = std::time(nullptr);
+    std::strftime(date, sizeof date, "%Y-%m-%d", std::localtime(&now));
+    for (const std::string& row : rows_) {
+      out << date << ',' << bench::processor_name() << ',' << choose_kernels().name << ',' << row << '\n';
+    }
+  }
+  int close() const {
+    std::printf("%s\n", missed_.empty() ? "speed: pass" : ("speed: short: " + missed_).c_str());
+    return 0;
+  }
+
+ private:
+  std::vector<std::string> rows_;
+  std::string missed_;
+};
+
+std::vector<int> thread_counts() {
+  return omp_get_num_procs() > 1 ? std::vector<int>{1, 2} : std::vector<int>{1};
+}
+
+std::vector<bench::Roofline> measure_machine(Results& results) {
+  std::printf("%s, instruction set %s\n\n%8s %12s %10s %12s\n", bench::processor_name().c_str(),
+              choose_kernels().name, "threads", "FMA GFLOP/s", "L2 GB/s", "memory GB/s");
+  std::vector<bench::Roofline> lines;
+  for (const int threads : thread_counts()) {
+    lines.push_back(bench::measure_roofline(threads));
+    const bench::Roofline& m = lines.back();
+    std::printf("%8d %12.1f %10.1f %12.1f\n", threads, m.flops / 1e9, m.l2 / 1e9, m.memory / 1e9);
+    results.add("machine FMA", 0, threads, m.flops / 1e9, "GFLOP/s");
+    results.add("machine L2", 0, threads, m.l2 / 1e9, "GB/s");
+    results.add("machine memory", 0, threads, m.memory / 1e9, "GB/s");
+  }
+  return lines;
+}
+
+/// Returns million updates a second of the first scene on 46,656 elements, by thread count.
+std::vector<double> measure_elements(const std::vector<bench::Roofline>& machine, bool large,
+                                     Results& results) {
+  using namespace host;
+  const Scene scenes[] = {{"one point, extruded",
+                           Shape::extruded,
+                           Formulation::one_point,
+                           false,
+                           work_of_update<OnePoint<Prism>, Elastic>(),
+                           {14, 26}},
+                          {"one point, distorted",
+                           Shape::distorted,
+                           Formulation::one_point,
+                           false,
+                           work_of_update<OnePoint<Hexahedron>, Elastic>(),
+                           {14, 26}},
+                          {"one point, PVB",
+                           Shape::extruded,
+                           Formulation::one_point,
+                           true,
+                           work_of_update<OnePoint<Prism>, RateDependent>(),
+                           {0, 0}},
+                          {"full, extruded",
+                           Shape::extruded,
+                           Formulation::full,
+                           false,
+                           work_of_update<FullIntegration<PrismPoints>, Elastic>(),
+                           {3, 5.5}},
+                          {"full, distorted",
+                           Shape::distorted,
+                           Formulation::full,
+                           false,
+                           work_of_update<FullIntegration<HexahedronPoints>, Elastic>(),
+                           {3, 5.5}},
+                          {"full, PVB",
+                           Shape::extruded,
+                           Formulation::full,
+                           true,
+                           work_of_update<FullIntegration<PrismPoints>, RateDependent>(),
+                           {0, 0}}};
+  std::printf(
+      "\nElement updates: drift, internal force, assembly, acceleration; the fastest of many steps.\n"
+      "Limit: FMA peak, or memory where elements and nodes do not fit into 16 MB, whichever is lower.\n\n"
+      "%-21s %9s %7s %9s %7s %7s %9s %9s %9s\n",
+      "element", "elements", "threads", "M/s", "flop", "bytes", "GFLOP/s", "GB/s", "of limit");
+  std::vector<double> first;
+  for (const Scene& scene : scenes) {
+    double reference = 0;
+    for (const Index columns : {108, 188, 500}) {
+      const Index count = 4 * columns * columns;
+      if (count > 200'000 && !large) continue;
+      MovingPlate moving(plate(scene, columns));
+      const std::vector<int> counts = thread_counts();
+      for (std::size_t t = 0; t < counts.size(); ++t) {
+        const double rate = count / moving.least_step(counts[t], 0.7);
+        const bool in_cache = count * scene.work.bytes < 16e6;
+        const double limit = in_cache ? machine[t].flops / scene.work.operations
+                                      : std::min(machine[t].flops / scene.work.operations,
+                                                 machine[t].memory / scene.work.bytes);
+        std::printf("%-21s %9d %7d %9.2f %7.0f %7.0f %9.1f %9.1f %8.0f%%\n", scene.name, count, counts[t],
+                    1e-6 * rate, scene.work.operations, scene.work.bytes, 1e-9 * rate * scene.work.operations,
+                    1e-9 * rate * scene.work.bytes, 100 * rate / limit);
+        results.add(scene.name, count, counts[t], 1e-6 * rate, "M/s");
+        if (columns == 108) {
+          if (t == 0) reference = rate;
+          if (&scene == scenes) first.push_back(1e-6 * rate);
+          results.want(1e-6 * rate >= scene.wanted[t],
+                       std::string(scene.name) + " on " + std::to_string(counts[t]) + " threads");
+        } else if (t == 0 && &scene == scenes) {
+          results.want(rate >= 0.75 * reference,
+                       std::to_string(count) + " elements slower than 46,656 by more than 25 %");
+        }
+      }
+    }
+  }
+  return first;
+}
+
+// ---- whole steps
+// -------------------------------------------------------------------------------------------
+
+Model impact_case(Index columns) {
+  Model model = read_case("examples/laminated_glass/case.toml");
+  if (columns != 67) {
+    LaminatedPlate plate;
+    plate.columns = columns;
+    plate.layout = PlateColumns::regular;
+    model.mesh = laminated_plate_mesh(plate);
+    model.time.fixed_step = 0;
+  }
+  return model;
+}
+
+void measure_stages(Results& results) {
+  std::printf("\nThe paper's case, 1,200 steps (72 us: impact and most cracks); ns an element and step.\n\n");
+  std::vector<Summary> summaries;
+  for (const int threads : thread_counts()) {
+    Model model = impact_case(67);
+    model.threads = threads;
+    Simulation simulation(std::move(model));
+    simulation.advance(1200);
+    summaries.push_back(simulation.summary());
+  }
+  const double updates = double(summaries[0].elements) * 1200;
+  std::printf("%-18s", "stage");
+  for (const Summary& s : summaries) std::printf(" %6d threads %7s", s.threads, "share");
+  std::printf("\n");
+  std::vector<double> rest;
+  for (const Summary& s : summaries) rest.push_back(s.wall_s);
+  for (std::size_t i = 0; i < summaries[0].stages.size(); ++i) {
+    std::printf("%-18s", summaries[0].stages[i].name.c_str());
+    for (std::size_t t = 0; t < summaries.size(); ++t) {
+      const double seconds = summaries[t].stages[i].seconds;
+      rest[t] -= seconds;
+      std::printf(" %14.2f %6.1f%%", 1e9 * seconds / updates, 100 * seconds / summaries[t].wall_s);
+      results.add("case " + summaries[t].stages[i].name, summaries[t].elements, summaries[t].threads,
+                  1e9 * seconds / updates, "ns");
+    }
+    std::printf("\n");
+  }
+  std::printf("%-18s", "history");
+  for (std::size_t t = 0; t < summaries.size(); ++t) {
+    std::printf(" %14.2f %6.1f%%", 1e9 * rest[t] / updates, 100 * rest[t] / summaries[t].wall_s);
+  }
+  std::printf("\n%-18s", "step");
+  for (const Summary& s : summaries) std::printf(" %14.2f %6.1f%%", 1e9 * s.wall_s / updates, 100.0);
+  std::printf("\n");
+  for (const Summary& s : summaries) {
+    results.add("case step", s.elements, s.threads, 1e9 * s.wall_s / updates, "ns");
+    const double whole = s.wall_s / 1200 * 10000;
+    std::printf("10,000 steps at this pace: %.1f s on %d threads\n", whole, s.threads);
+    if (s.threads == 2) results.want(whole <= 40, "the paper's case above 40 s");
+  }
+  if (summaries.size() == 2) {
+    const double efficiency = summaries[0].wall_s / summaries[1].wall_s / 2;
+    std::printf("efficiency on two threads: %.0f %%\n", 100 * efficiency);
+    results.want(efficiency >= 0.85, "two threads below 85 % efficiency");
+  }
+}
+
+void measure_growth(bool large, Results& results) {
+  const int threads = thread_counts().back();
+  std::printf("\nThe case on finer meshes, %d threads, at the automatic step.\n\n%9s %7s %9s %16s %18s\n",
+              threads, "elements", "steps", "set-up s", "ns/element/step", "bytes an element");
+  std::vector<Index> sizes{10, 32, 67, 118};
+  if (large) sizes.push_back(316);
+  for (const Index columns : sizes) {
+    Model model = impact_case(columns);
+    model.threads = threads;
+    const auto begin = Clock::now();
+    Simulation simulation(std::move(model));
+    const double set_up = seconds_since(begin);
+    const auto elements = static_cast<double>(simulation.summary().elements);
+    const auto steps =
+        elements > 5e5 ? 1000 : static_cast<std::int64_t>(std::clamp(2e7 / elements, 50.0, 4000.0));
+    simulation.advance(steps);
+    const Summary s = simulation.summary();
+    const double pace = 1e9 * s.wall_s / elements / static_cast<double>(s.steps);
+    std::printf("%9d %7lld %9.2f %16.1f %18.0f\n", s.elements, static_cast<long long>(s.steps), set_up, pace,
+                1048576 * s.peak_rss_mb / elements);
+    results.add("growth", s.elements, threads, pace, "ns");
+  }
+}
+
+void measure_beside_lulesh(const char* program, const std::vector<double>& ours, Results& results) {
+  std::printf(
+      "\nBeside LULESH on 36^3 elements (its updates hold more: artificial viscosity, equation of "
+      "state).\n\n");
+  const std::vector<int> counts = thread_counts();
+  const double wanted[] = {11, 14};
+  for (std::size_t t = 0; t < counts.size(); ++t) {
+    const std::string command =
+        "OMP_NUM_THREADS=" + std::to_string(counts[t]) + " '" + program + "' -s 36 -i 60";
+    double theirs = 0;
+    for (int run = 0; run < 3; ++run) {
+      std::FILE* out = popen(command.c_str(), "r");
+      if (out == nullptr) continue;
+      char line[256];
+      while (std::fgets(line, sizeof line, out) != nullptr) {
+        double fom = 0;
+        if (std::sscanf(line, "FOM = %lf", &fom) == 1) theirs = std::max(theirs, 1e-3 * fom);
+      }
+      pclose(out);
+    }
+    if (theirs <= 0) {
+      results.want(false, std::string("no figure from ") + program);
+      return;
+    }
+    std::printf("%d threads: LULESH %.2f M/s, ours %.2f M/s, ratio %.1f\n", counts[t], theirs, ours[t],
+                ours[t] / theirs);
+    results.add("ratio to LULESH", 46656, counts[t], ours[t] / theirs, "");
+    results.want(ours[t] / theirs >= wanted[t],
+                 "ratio to LULESH on " + std::to_string(counts[t]) + " threads");
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  bool large = false, keep = false;
+  const char* lulesh = nullptr;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--large") {
+      large = true;
+    } else if (word == "--keep") {
+      keep = true;
+    } else if (word == "--lulesh" && i + 1 < argc) {
+      lulesh = argv[++i];
+    } else {
+      std::fprintf(stderr, "usage: benchmarks/run.sh speed [--large] [--keep] [--lulesh FILE]\n");
+      return 2;
+    }
+  }
+  Results results;
+  const std::vector<bench::Roofline> machine = measure_machine(results);
+  const std::vector<double> ours = measure_elements(machine, large, results);
+  if (lulesh != nullptr) measure_beside_lulesh(lulesh, ours, results);
+  measure_stages(results);
+  measure_growth(large, results);
+  if (keep) results.keep("benchmarks/history/speed.csv");
+  return results.close();
+}
