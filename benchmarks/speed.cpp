@@ -24,6 +24,7 @@
 #include "element/full_integration.hpp"
 #include "element/kernels.hpp"
 #include "element/one_point.hpp"
+#include "element/tetrahedron.hpp"
 #include "integrator/central_difference.hpp"
 #include "material/elastic.hpp"
 #include "material/rate_dependent.hpp"
@@ -43,7 +44,7 @@ double seconds_since(Clock::time_point begin) {
 // ---- elements
 // ----------------------------------------------------------------------------------------------
 
-enum class Shape { extruded, distorted };
+enum class Shape { extruded, distorted, tetrahedra };
 
 struct Work {
   double operations, bytes;
@@ -55,17 +56,18 @@ Work work_of_update() {
   using host::Counted;
   std::vector<double> constants(std::size_t(Formulation::kConstants) * kLanes, 0.5);
   std::vector<double> state(std::size_t(Formulation::kPoints * Law::kState + 1) * kLanes, 0.5);
-  Counted x[8][3], f[8][3];
+  constexpr int kCorners = Formulation::kCorners;
+  Counted x[kCorners][3], f[kCorners][3];
   const PartConstants part;
   const StepConstants step{1, 0.5};
   Counted::operations = 0;
   Formulation::force(part, constants.data(), x, f, [&](const host::Symmetric<Counted>& strain, int point) {
     return Law::advance(part.material, step, strain, &state[std::size_t(point * Law::kState) * kLanes]);
   });
-  constexpr double kNodesAnElement = 1.25;  // of the plates below
-  const double assembly = 24;
+  constexpr double kNodesAnElement = kCorners == 4 ? 1.25 / 6 : 1.25;  // of the plates below
+  const double assembly = 3 * kCorners;
   const double advance = kNodesAnElement * (6 + 6 + 1);
-  const double constants_and_corners = 8.0 * Formulation::kConstants + 4 * 8;
+  const double constants_and_corners = 8.0 * Formulation::kConstants + 4 * kCorners;
   const double of_state = 2 * 8.0 * Formulation::kPoints * Law::kState;
   const double of_nodes = kNodesAnElement * 8 * (3 + 6 /* force */ + 9 + 3 /* drift */ + 9 + 1 /* kick */);
   return {double(Counted::operations) + assembly + advance, constants_and_corners + of_state + of_nodes};
@@ -111,8 +113,21 @@ Model plate(const Scene& scene, Index columns) {
       }
     }
   }
-  const auto elements = std::size_t(kLayers) * std::size_t(columns) * std::size_t(columns);
+  auto elements = std::size_t(kLayers) * std::size_t(columns) * std::size_t(columns);
   mesh.types.assign(elements, ElementType::hexahedron);
+  if (scene.shape == Shape::tetrahedra) {
+    static constexpr int kCut[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
+                                       {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+    std::vector<Index> cut;
+    for (std::size_t e = 0; e < elements; ++e) {
+      for (const auto& corners : kCut) {
+        for (const int c : corners) cut.push_back(mesh.connectivity[8 * e + std::size_t(c)]);
+      }
+    }
+    mesh.connectivity = std::move(cut);
+    elements *= 6;
+    mesh.types.assign(elements, ElementType::tetrahedron);
+  }
   mesh.parts.assign(elements, 0);
   mesh.part_names = {"plate"};
   if (scene.rate_dependent) {
@@ -251,7 +266,13 @@ std::vector<double> measure_elements(const std::vector<bench::Roofline>& machine
                            Formulation::full,
                            true,
                            work_of_update<FullIntegration<PrismPoints>, RateDependent>(),
-                           {0, 0}}};
+                           {0, 0}},
+                          {"tetrahedron",
+                           Shape::tetrahedra,
+                           Formulation::one_point,
+                           false,
+                           work_of_update<Tetrahedron, Elastic>(),
+                           {20, 0}}};
   std::printf(
       "\nElement updates: drift, internal force, assembly, acceleration; the fastest of many steps.\n"
       "Limit: FMA peak, or memory where elements and nodes do not fit into 16 MB, whichever is lower.\n\n"
@@ -261,9 +282,10 @@ std::vector<double> measure_elements(const std::vector<bench::Roofline>& machine
   for (const Scene& scene : scenes) {
     double reference = 0;
     for (const Index columns : {108, 188, 500}) {
-      const Index count = 4 * columns * columns;
-      if (count > 200'000 && !large) continue;
-      MovingPlate moving(plate(scene, columns));
+      if (columns > 200 && !large) continue;
+      const Model model = plate(scene, scene.shape == Shape::tetrahedra ? columns * 2 / 5 : columns);
+      const Index count = model.mesh.element_count();
+      MovingPlate moving(model);
       const std::vector<int> counts = thread_counts();
       for (std::size_t t = 0; t < counts.size(); ++t) {
         const double rate = count / moving.least_step(counts[t], 0.7);

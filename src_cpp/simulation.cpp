@@ -128,7 +128,7 @@ struct Simulation::Stages {
   std::vector<Stage> move_;
   std::vector<Stage> forces_;
   std::vector<Stage> finish_;
-  std::vector<Index> hexahedra_;
+  std::vector<Index> connectivity_, first_corner_;
   std::vector<OpenFacet> open_;
   Insertion insertion_;
   std::vector<Index> split_;  ///< nodes whose elements changed in this step
@@ -171,7 +171,8 @@ Simulation::Stages::Stages(Model given)
       }()),
       monitor(model),
       nodes_initial(model.mesh.node_count()),
-      hexahedra_(model.mesh.connectivity) {
+      connectivity_(model.mesh.connectivity),
+      first_corner_(first_corners(model.mesh)) {
   elements.add_mass(nodes.mass);
   for (Index n = 0; n < nodes.count(); ++n) {
     if (nodes.mass[n] == 0) nodes.fixed[n] = 7;
@@ -261,7 +262,7 @@ void Simulation::Stages::insert_open_facets() {
     for (const Insertion::Renumbered& r : insertion_.renumbered) {
       if (r.element >= topology.bulk_count()) continue;
       elements.replace_node(r.element, r.corner, r.new_node);
-      hexahedra_[8 * static_cast<std::size_t>(r.element) + r.corner] = r.new_node;
+      connectivity_[first_corner_[r.element] + r.corner] = r.new_node;
     }
     constraints.follow(insertion_);
     if (contact) contact->follow(insertion_);
@@ -366,8 +367,8 @@ void Simulation::Stages::record() {
   std::vector<Monitor::Body> shown;
   shown.reserve(bodies.size());
   for (const RigidMotion& body : bodies) shown.push_back({body.center(), body.velocity(), body.force()});
-  monitor.record(time, steps, step_size, now, parts,
-                 cohesive ? cohesive->count() : 0, cohesive ? cohesive->broken_count() : 0, shown);
+  monitor.record(time, steps, step_size, now, parts, cohesive ? cohesive->count() : 0,
+                 cohesive ? cohesive->broken_count() : 0, shown);
 }
 
 Energies Simulation::Stages::energies(const std::vector<PartEnergy>& parts) const {
@@ -401,7 +402,8 @@ Frame Simulation::Stages::frame() const {
   f.step = steps;
   f.positions = nodes.position;
   f.velocities = nodes.velocity;
-  f.hexahedra = hexahedra_;
+  f.connectivity = connectivity_;
+  f.first_corner = first_corner_;
   f.parts = model.mesh.parts;
   f.part_names = model.mesh.part_names;
   for (const SymmetryPlane& plane : model.symmetry_planes)

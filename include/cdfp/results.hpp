@@ -51,12 +51,13 @@ struct CrackFacet {
 struct Frame {
   double time = 0;
   std::int64_t step = 0;
-  std::span<const double> positions;   ///< (nodes, 3)
-  std::span<const double> velocities;  ///< (nodes, 3)
-  std::span<const Index> hexahedra;    ///< (elements, 8)
-  std::span<const Index> parts;        ///< one an element
-  std::vector<double> von_mises;       ///< Pa, one an element
-  std::vector<double> max_principal;   ///< Pa, one an element
+  std::span<const double> positions;    ///< (nodes, 3)
+  std::span<const double> velocities;   ///< (nodes, 3)
+  std::span<const Index> connectivity;  ///< corners of all elements, one element after the other
+  std::span<const Index> first_corner;  ///< (elements + 1) of each element in `connectivity`, and its end
+  std::span<const Index> parts;         ///< one an element
+  std::vector<double> von_mises;        ///< Pa, one an element
+  std::vector<double> max_principal;    ///< Pa, one an element
   std::vector<CrackFacet> cracks;
   std::vector<std::string> part_names;
   std::vector<std::pair<int, double>> symmetry_planes;  ///< axis and coordinate

@@ -10,6 +10,7 @@
 #include "element/full_integration.hpp"
 #include "element/one_point.hpp"
 #include "element/step_bound.hpp"
+#include "element/tetrahedron.hpp"
 
 namespace cdfp {
 
@@ -20,7 +21,10 @@ namespace {
 constexpr std::size_t kMostBlocksATask = 32;
 constexpr std::size_t kTasksWanted = 128;
 
-BlockKind kind_of(const PartPlan& plan, bool prism) {
+BlockKind kind_of(const PartPlan& plan, ElementType type, bool prism) {
+  if (type == ElementType::tetrahedron) {
+    return plan.rate_dependent ? BlockKind::tetrahedron_rate_dependent : BlockKind::tetrahedron_elastic;
+  }
   if (plan.full && prism) {
     return plan.rate_dependent ? BlockKind::full_prism_rate_dependent : BlockKind::full_prism_elastic;
   }
@@ -35,13 +39,24 @@ Eigen::Vector3d hourglass_constants(const HexahedronGeometry& geometry, double f
   return (factor * l.prod() / 3 * l.cwiseProduct(l).cwiseInverse()).cwiseSqrt();
 }
 
-Corners corners_of(const Mesh& mesh, Index element) {
-  Corners x;
-  for (int c = 0; c < 8; ++c) {
-    const Index node = mesh.connectivity[8 * static_cast<std::size_t>(element) + c];
+/// `ofCorners`: Corners or TetrahedronCorners, from the element's first entry in the connectivity.
+template <class OfCorners>
+OfCorners corners_of(const Mesh& mesh, Index first) {
+  OfCorners x;
+  for (Eigen::Index c = 0; c < x.rows(); ++c) {
+    const Index node = mesh.connectivity[static_cast<std::size_t>(first + c)];
     x.row(c) = Eigen::Map<const Eigen::RowVector3d>(&mesh.coordinates[3 * static_cast<std::size_t>(node)]);
   }
   return x;
+}
+
+Eigen::RowVector3d centre_of(const Mesh& mesh, Index first, Index end) {
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  for (Index c = first; c < end; ++c) {
+    sum += Eigen::Map<const Eigen::RowVector3d>(
+        &mesh.coordinates[3 * static_cast<std::size_t>(mesh.connectivity[c])]);
+  }
+  return sum / (end - first);
 }
 
 /// An element's constants in the order of its formulation: `write(component, value)`.
@@ -108,28 +123,50 @@ void write_constants(BlockKind kind, const HexahedronGeometry& geometry, const E
       }
       return;
     }
+    default:
+      return;
   }
 }
 
-void require_hexahedra(const Mesh& mesh) {
+/// Where each element's corners start in the connectivity.
+std::vector<Index> first_corners_of(const Mesh& mesh) {
+  std::vector<Index> first{0};
   for (Index e = 0; e < mesh.element_count(); ++e) {
-    if (mesh.types[e] == ElementType::hexahedron) continue;
-    throw Error(Status::bad_mesh,
-                "element " + std::to_string(e) +
-                    " is not a hexahedron; only hexahedra have a stiffness, so mesh part '" +
-                    mesh.part_names[mesh.parts[e]] + "' with hexahedra");
+    const ElementType type = mesh.types[e];
+    if (type != ElementType::hexahedron && type != ElementType::tetrahedron) {
+      throw Error(
+          Status::bad_mesh,
+          "element " + std::to_string(e) +
+              " is neither a hexahedron nor a tetrahedron; only these have a stiffness, so mesh part '" +
+              mesh.part_names[mesh.parts[e]] + "' with them");
+    }
+    first.push_back(first.back() + (type == ElementType::hexahedron ? 8 : 4));
   }
+  return first;
+}
+
+struct Shape {
+  double volume;
+  bool prism, inverted;
+};
+Shape shape_of(const Mesh& mesh, ElementType type, Index first) {
+  if (type == ElementType::tetrahedron) {
+    const double volume = tetrahedron_geometry(corners_of<TetrahedronCorners>(mesh, first)).volume;
+    return {volume, false, !(volume > 0)};
+  }
+  const HexahedronGeometry geometry = hexahedron_geometry(corners_of<Corners>(mesh, first));
+  return {geometry.volume, geometry.prism, !(geometry.volume > 0 && geometry.least_jacobian > 0)};
 }
 
 }  // namespace
 
 ElementBlocks::ElementBlocks(const Model& model) : part_count(model.mesh.part_names.size()) {
   const Threads threads(model.threads);
-  require_hexahedra(model.mesh);
+  first_corner = first_corners_of(model.mesh);
   sort_into_groups(model, threads);
   for (BlockGroup& group : groups) fill(group, model.mesh, threads);
   tighten_step_terms(model.mesh);
-  colour_tasks(model.mesh);
+  colour_tasks(model.mesh.node_count());
 }
 
 void ElementBlocks::sort_into_groups(const Model& model, const Threads& threads) {
@@ -143,10 +180,10 @@ void ElementBlocks::sort_into_groups(const Model& model, const Threads& threads)
   threads.for_each(mesh.element_count(), [&](std::int64_t e) {
     const std::optional<PartPlan>& plan = plans[mesh.parts[e]];
     if (!plan) return;
-    const HexahedronGeometry geometry = hexahedron_geometry(corners_of(mesh, static_cast<Index>(e)));
-    prism[e] = geometry.prism;
-    inverted[e] = !(geometry.volume > 0 && geometry.least_jacobian > 0);
-    corner_masses[e] = plan->constants.density * geometry.volume / 8;
+    const Shape shape = shape_of(mesh, mesh.types[e], first_corner[e]);
+    prism[e] = shape.prism;
+    inverted[e] = shape.inverted;
+    corner_masses[e] = plan->constants.density * shape.volume / (first_corner[e + 1] - first_corner[e]);
   });
   if (const auto bad = std::find(inverted.begin(), inverted.end(), 1); bad != inverted.end()) {
     const auto e = bad - inverted.begin();
@@ -161,8 +198,9 @@ void ElementBlocks::sort_into_groups(const Model& model, const Threads& threads)
     const Index part = mesh.parts[e];
     if (!plans[part]) continue;
     ++deformable;
-    const Eigen::RowVector3d centre = corners_of(mesh, e).colwise().mean();
-    members[static_cast<std::size_t>(part) * kBlockKinds + static_cast<int>(kind_of(*plans[part], prism[e]))]
+    const Eigen::RowVector3d centre = centre_of(mesh, first_corner[e], first_corner[e + 1]);
+    members[static_cast<std::size_t>(part) * kBlockKinds +
+            static_cast<int>(kind_of(*plans[part], mesh.types[e], prism[e]))]
         .push_back({{centre[0], centre[1], centre[2]}, e});
   }
   blocks_a_task_ = std::clamp<std::size_t>(deformable / kBlock / kTasksWanted, 1, kMostBlocksATask);
@@ -201,22 +239,30 @@ void ElementBlocks::fill(BlockGroup& group, const Mesh& mesh, const Threads& thr
   group.constants.resize(rows * constants);
   group.state.assign(rows * static_cast<std::size_t>(group.kernel->state), Lanes{});
   group.step_terms.resize(rows * 4);
-  group.offsets.resize(rows * 8 * kLanes);
+  group.offsets.resize(rows * static_cast<std::size_t>(group.corners()) * kLanes);
   const PartConstants& part = group.plan.constants;
   threads.for_each(static_cast<std::int64_t>(rows * kLanes), [&](std::int64_t i) {
     const auto slot = static_cast<std::size_t>(i), row = slot / kLanes, lane = slot % kLanes;
     const Index e = group.elements[std::min(slot, group.elements.size() - 1)];
-    const HexahedronGeometry geometry = hexahedron_geometry(corners_of(mesh, e));
-    const Eigen::Vector3d g = hourglass_constants(geometry, group.plan.hourglass_factor);
-    write_constants(group.kind, geometry, g, [&](int component, double value) {
+    const auto write = [&](int component, double value) {
       group.constants[row * constants + static_cast<std::size_t>(component)].value[lane] = value;
-    });
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-      group.corner_offsets(slot)[corner * kLanes] =
-          3 * mesh.connectivity[8 * static_cast<std::size_t>(e) + corner];
+    };
+    for (Index corner = 0; corner < group.corners(); ++corner) {
+      group.corner_offsets(slot)[corner * kLanes] = 3 * mesh.connectivity[first_corner[e] + corner];
     }
-    const StepTerms terms = group.plan.full ? full_terms(geometry, part, part.density)
-                                            : one_point_terms(geometry, part, g, part.density);
+    StepTerms terms;
+    if (group.corners() == 4) {
+      const auto geometry = tetrahedron_geometry(corners_of<TetrahedronCorners>(mesh, first_corner[e]));
+      for (int k = 0; k < 9; ++k) write(k, geometry.gradient(1 + k / 3, k % 3));
+      write(host::Tetrahedron::kVolume, geometry.volume);
+      terms = tetrahedron_terms(geometry, part, part.density);
+    } else {
+      const HexahedronGeometry geometry = hexahedron_geometry(corners_of<Corners>(mesh, first_corner[e]));
+      const Eigen::Vector3d g = hourglass_constants(geometry, group.plan.hourglass_factor);
+      write_constants(group.kind, geometry, g, write);
+      terms = group.plan.full ? full_terms(geometry, part, part.density)
+                              : one_point_terms(geometry, part, g, part.density);
+    }
     Lanes* at = &group.step_terms[4 * row];
     at[0].value[lane] = terms.material;
     at[1].value[lane] = terms.hourglass;
@@ -250,7 +296,8 @@ void ElementBlocks::tighten_step_terms(const Mesh& mesh) {
                    [](const Candidate& a, const Candidate& b) { return a.bound > b.bound; });
   for (const auto& [bound, group, slot] : candidates) {
     if (bound <= kSlack * highest) break;
-    const HexahedronGeometry geometry = hexahedron_geometry(corners_of(mesh, group->elements[slot]));
+    const HexahedronGeometry geometry =
+        hexahedron_geometry(corners_of<Corners>(mesh, first_corner[group->elements[slot]]));
     const PartConstants& part = group->plan.constants;
     const double exact =
         group->plan.full
@@ -266,7 +313,7 @@ void ElementBlocks::tighten_step_terms(const Mesh& mesh) {
   }
 }
 
-void ElementBlocks::colour_tasks(const Mesh& mesh) {
+void ElementBlocks::colour_tasks(Index node_count) {
   std::vector<std::size_t> first{0};
   std::vector<Index> nodes;
   std::vector<Task> tasks;
@@ -275,24 +322,18 @@ void ElementBlocks::colour_tasks(const Mesh& mesh) {
     for (std::size_t block = 0; block < group.blocks(); block += blocks_a_task_) {
       const std::size_t last = std::min(block + blocks_a_task_, group.blocks());
       for (std::size_t slot = block * kBlock; slot < std::min(last * kBlock, group.elements.size()); ++slot) {
-        const Index* corner = &mesh.connectivity[8 * static_cast<std::size_t>(group.elements[slot])];
-        nodes.insert(nodes.end(), corner, corner + 8);
+        const std::int32_t* offsets = group.corner_offsets(slot);
+        for (int corner = 0; corner < group.corners(); ++corner)
+          nodes.push_back(offsets[corner * kLanes] / 3);
       }
       first.push_back(nodes.size());
       tasks.push_back(
           {static_cast<std::int32_t>(g), static_cast<std::int32_t>(block), static_cast<std::int32_t>(last)});
     }
   }
-  for (const std::vector<std::int32_t>& of_colour : colour(first, nodes, mesh.node_count())) {
+  for (const std::vector<std::int32_t>& of_colour : colour(first, nodes, node_count)) {
     std::vector<Task>& list = colours.emplace_back();
     for (const std::int32_t task : of_colour) list.push_back(tasks[task]);
-  }
-}
-
-void ElementBlocks::corners(const Place& place, std::span<const double> position, double (&x)[8][3]) const {
-  const std::int32_t* offsets = groups[place.group].corner_offsets(place.slot);
-  for (int corner = 0; corner < 8; ++corner) {
-    host::gather3(position.data(), offsets + corner * kLanes, x[corner]);
   }
 }
 

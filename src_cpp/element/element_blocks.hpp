@@ -27,13 +27,15 @@ struct BlockGroup {
   std::vector<Lanes> constants, state, step_terms;
   std::vector<std::int32_t> offsets;  ///< [row][corner][lane], 3 * node
 
+  int corners() const { return kernel->corners; }
+
   std::size_t blocks() const { return (elements.size() + kBlock - 1) / kBlock; }
   int count(std::size_t block) const {
     return static_cast<int>(std::min<std::size_t>(kBlock, elements.size() - block * kBlock));
   }
   BlockInput input(std::size_t block, std::span<const double> position) const {
     return {constants.data() + block * kRows * static_cast<std::size_t>(kernel->constants),
-            offsets.data() + block * kBlock * 8,
+            offsets.data() + block * kBlock * static_cast<std::size_t>(corners()),
             state.data() + block * kRows * static_cast<std::size_t>(kernel->state),
             count(block),
             &plan.constants,
@@ -43,7 +45,7 @@ struct BlockGroup {
     return state.data() + block * kRows * static_cast<std::size_t>(kernel->state);
   }
   std::int32_t* corner_offsets(std::size_t slot) {
-    return offsets.data() + slot / kLanes * 8 * kLanes + slot % kLanes;
+    return offsets.data() + slot / kLanes * static_cast<std::size_t>(corners()) * kLanes + slot % kLanes;
   }
   const std::int32_t* corner_offsets(std::size_t slot) const {
     return const_cast<BlockGroup*>(this)->corner_offsets(slot);
@@ -63,12 +65,10 @@ struct ElementBlocks {
 
   explicit ElementBlocks(const Model& model);
 
-  /// Present corners of an element.
-  void corners(const Place& place, std::span<const double> position, double (&x)[8][3]) const;
-
   const Kernels& kernels = choose_kernels();
   std::vector<BlockGroup> groups;
-  std::vector<Place> places;  ///< one an element
+  std::vector<Place> places;        ///< one an element
+  std::vector<Index> first_corner;  ///< of each element in the mesh's connectivity, and the end
   std::vector<double> corner_masses;
   std::vector<std::vector<Task>> colours;  ///< tasks of one colour share no node
   std::size_t block_count = 0;
@@ -78,7 +78,7 @@ struct ElementBlocks {
   void sort_into_groups(const Model& model, const Threads& threads);
   void fill(BlockGroup& group, const Mesh& mesh, const Threads& threads) const;
   void tighten_step_terms(const Mesh& mesh);
-  void colour_tasks(const Mesh& mesh);
+  void colour_tasks(Index node_count);
 
   std::size_t blocks_a_task_ = 1;
 };

@@ -65,7 +65,7 @@ void ElementForce::add_mass(std::span<double> mass) const {
     const auto& [group, slot] = blocks_->places[e];
     if (group == kNone) continue;
     const std::int32_t* offsets = blocks_->groups[group].corner_offsets(slot);
-    for (int corner = 0; corner < 8; ++corner)
+    for (int corner = 0; corner < blocks_->groups[group].corners(); ++corner)
       mass[offsets[corner * kLanes] / 3] += blocks_->corner_masses[e];
   }
 }
@@ -104,21 +104,17 @@ std::span<const Index> ElementForce::critical_elements() const {
 Mat3 ElementForce::stress(Index element, std::span<const double> position) const {
   const Blocks::Place& place = blocks_->places[element];
   if (place.group == kNone) return {};
-  double x[8][3];
-  blocks_->corners(place, position, x);
-  return element_stress(blocks_->groups[place.group], static_cast<std::size_t>(place.slot), x);
+  return element_stress(blocks_->groups[place.group], static_cast<std::size_t>(place.slot), position);
 }
 
 void ElementForce::corner_force(Index element, std::span<const double> position,
                                 std::span<double> force) const {
   const Blocks::Place& place = blocks_->places[element];
   if (place.group == kNone) {
-    std::fill_n(force.begin(), 24, 0.0);
+    std::fill(force.begin(), force.end(), 0.0);
     return;
   }
-  double x[8][3];
-  blocks_->corners(place, position, x);
-  element_force(blocks_->groups[place.group], static_cast<std::size_t>(place.slot), x, force);
+  element_force(blocks_->groups[place.group], static_cast<std::size_t>(place.slot), position, force);
 }
 
 void ElementForce::replace_node(Index element, Index corner, Index node) {
@@ -179,10 +175,8 @@ Index ElementForce::first_inverted(std::span<const double> position) const {
   for (std::size_t e = 0; e < blocks_->places.size(); ++e) {
     const Blocks::Place& place = blocks_->places[e];
     if (place.group == kNone) continue;
-    double x[8][3];
-    blocks_->corners(place, position, x);
     const double volume =
-        hexahedron_volume(Corners(Eigen::Map<const Eigen::Matrix<double, 8, 3, Eigen::RowMajor>>(&x[0][0])));
+        element_volume(blocks_->groups[place.group], static_cast<std::size_t>(place.slot), position);
     if (!(volume > 0) || !std::isfinite(volume)) return static_cast<Index>(e);
   }
   return kNone;

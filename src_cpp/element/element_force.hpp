@@ -46,8 +46,8 @@ class ElementForce {
   /// Mean Cauchy stress of an element at `position`, Pa, with the material state as it is.
   Mat3 stress(Index element, std::span<const double> position) const;
 
-  /// Minus the internal force of one element at its corners, (8, 3), N, with the material state as it is:
-  /// what `add_force` last added for it. For nodes that are split after that.
+  /// Minus the internal force of one element at its corners, (corners, 3), N, with the material state as it
+  /// is: what `add_force` last added for it. For nodes that are split after that.
   void corner_force(Index element, std::span<const double> position, std::span<double> force) const;
 
   /// An element's corner now names `node` (a copy of the old one at the same place).

@@ -107,6 +107,7 @@ struct PrismPoints {
 
 template <class Points>
 struct FullIntegration {
+  static constexpr int kCorners = 8;
   static constexpr int kPoints = 8;
   static constexpr bool kHourglassFollowsLaw = true;  ///< non-uniform strains are the law's too
   static constexpr int kConstants = Points::kConstants;

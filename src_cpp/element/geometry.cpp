@@ -101,6 +101,15 @@ HexahedronGeometry hexahedron_geometry(const Corners& x) {
   return g;
 }
 
+TetrahedronGeometry tetrahedron_geometry(const TetrahedronCorners& x) {
+  const Matrix3d edges = x.bottomRows<3>().rowwise() - x.row(0);
+  TetrahedronGeometry g;
+  g.volume = edges.determinant() / 6;
+  g.gradient.bottomRows<3>() = edges.inverse().transpose();
+  g.gradient.row(0) = -g.gradient.bottomRows<3>().colwise().sum();
+  return g;
+}
+
 double hexahedron_volume(const Corners& x) {
   const Corners centred = x.rowwise() - x.row(0);
   const double place = 1 / std::sqrt(3.0);

@@ -21,6 +21,16 @@ struct HexahedronGeometry {
   bool prism = false;  ///< extruded along zeta to round-off: what Prism leaves out is zero
 };
 
+using TetrahedronCorners = Eigen::Matrix<double, 4, 3>;
+
+struct TetrahedronGeometry {
+  double volume = 0;
+  TetrahedronCorners gradient;  ///< of each corner's shape function
+};
+
+/// Not inverted where `volume` is positive.
+TetrahedronGeometry tetrahedron_geometry(const TetrahedronCorners& x);
+
 /// Signs of the seven modes at the corners.
 const Eigen::Matrix<double, 8, 7>& mode_signs();
 

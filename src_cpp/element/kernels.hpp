@@ -16,11 +16,14 @@ enum class BlockKind : int {
   full_prism_elastic,
   full_prism_rate_dependent,
   full_elastic,
-  full_rate_dependent
+  full_rate_dependent,
+  tetrahedron_elastic,
+  tetrahedron_rate_dependent
 };
-inline constexpr int kBlockKinds = 8;
+inline constexpr int kBlockKinds = 10;
 
 struct BlockKernel {
+  int corners = 0;    ///< of an element
   int constants = 0;  ///< components an element
   int state = 0;
   /// Subtracts the internal forces from `force` and advances `state`, the block's own. Bit l of the answer:

@@ -5,6 +5,7 @@
 #include "element/full_integration.hpp"
 #include "element/kernels.hpp"
 #include "element/one_point.hpp"
+#include "element/tetrahedron.hpp"
 #include "material/elastic.hpp"
 #include "material/rate_dependent.hpp"
 
@@ -16,13 +17,14 @@ namespace CDFP_ISA {
 template <class Formulation, class Law>
 struct PackOfBlock {
   const double* constants;
+  static constexpr int kCorners = Formulation::kCorners;
   const std::int32_t* offsets;
   std::ptrdiff_t state;
 
   CDFP_INLINE PackOfBlock(const BlockInput& block, int first) {
     const int row = first / kLanes, lane = first % kLanes;
     constants = &block.constants[row * Formulation::kConstants].value[lane];
-    offsets = block.offsets + row * 8 * kLanes + lane;
+    offsets = block.offsets + row * kCorners * kLanes + lane;
     state = Law::kState ? row * Formulation::kPoints * Law::kState * kLanes + lane : 0;
   }
   /// Asks for the constants of the rows to come, which the hardware loses sight of at the end of each page.
@@ -30,11 +32,24 @@ struct PackOfBlock {
     constexpr int kRowsAhead = 4, kPerLine = 16;
     const double* row = constants + kRowsAhead * Formulation::kConstants * kLanes;
     for (int k = 0; k < Formulation::kConstants; ++k) __builtin_prefetch(row + k * kLanes);
-    const std::int32_t* corners = offsets + kRowsAhead * 8 * kLanes;
-    for (int k = 0; k < 8 * kLanes; k += kPerLine) __builtin_prefetch(corners + k);
+    const std::int32_t* corners = offsets + kRowsAhead * kCorners * kLanes;
+    for (int k = 0; k < kCorners * kLanes; k += kPerLine) __builtin_prefetch(corners + k);
   }
-  CDFP_INLINE void gather(const double* position, Pack (&x)[8][3]) const {
-    for (int corner = 0; corner < 8; ++corner) gather3(position, offsets + corner * kLanes, x[corner]);
+  /// Asks for every other corner's position and force two rows on: nodes of a large mesh lie far apart, and
+  /// the rest are corners of neighbours. (Rows past the end repeat the last one's memory at worst.)
+  CDFP_INLINE void prefetch_nodes(const double* position, const double* force, int rows_left) const {
+    constexpr int kRowsAhead = 2;
+    if (rows_left <= kRowsAhead) return;
+    const std::int32_t* corners = offsets + kRowsAhead * kCorners * kLanes;
+    for (int corner = 0; corner < kCorners; corner += 2) {
+      for (int lane = 0; lane < kLanes; ++lane) {
+        __builtin_prefetch(position + corners[corner * kLanes + lane]);
+        __builtin_prefetch(force + corners[corner * kLanes + lane], 1);
+      }
+    }
+  }
+  CDFP_INLINE void gather(const double* position, Pack (&x)[kCorners][3]) const {
+    for (int corner = 0; corner < kCorners; ++corner) gather3(position, offsets + corner * kLanes, x[corner]);
   }
   /// State of a point in the block's `first`.
   template <class Double>
@@ -50,8 +65,11 @@ std::uint64_t add_force(const BlockInput& block, const StepConstants& step, Lane
   std::uint64_t critical = 0;
   for (int first = 0; first < block.count; first += kWidth) {
     const PackOfBlock<Formulation, Law> pack(block, first);
-    if (first % kLanes == 0) pack.prefetch();
-    Pack x[8][3], f[8][3];
+    if (first % kLanes == 0) {
+      pack.prefetch();
+      pack.prefetch_nodes(block.position, force, (block.count - first) / kLanes);
+    }
+    Pack x[Formulation::kCorners][3], f[Formulation::kCorners][3];
     pack.gather(block.position, x);
     const Pack norm =
         Formulation::force(part, pack.constants, x, f, [&](const Symmetric<Pack>& strain, int point) {
@@ -64,7 +82,7 @@ std::uint64_t add_force(const BlockInput& block, const StepConstants& step, Lane
     critical |= lanes_at_least(norm, Pack(part.critical_norm_squared)) << first;
     const int left = block.count - first;
     const int lanes = left < kWidth ? left : kWidth;
-    for (int corner = 0; corner < 8; ++corner) {
+    for (int corner = 0; corner < Formulation::kCorners; ++corner) {
       scatter_subtract3(force, pack.offsets + corner * kLanes, lanes, f[corner]);
     }
   }
@@ -78,7 +96,7 @@ BlockEnergy energy(const BlockInput& block) {
   BlockEnergy sum;
   for (int first = 0; first < block.count; first += kWidth) {
     const PackOfBlock<Formulation, Law> pack(block, first);
-    Pack x[8][3];
+    Pack x[Formulation::kCorners][3];
     pack.gather(block.position, x);
     Pack strain_energy, hourglass_energy, dissipated(0.0);
     Formulation::energy(part, pack.constants, x, strain_energy, hourglass_energy,
@@ -106,7 +124,7 @@ void step_bound(const BlockInput& block, const Lanes* terms, double* omega_squar
   const auto* block_state = reinterpret_cast<const double*>(block.state);
   for (int first = 0; first < block.count; first += kWidth) {
     const PackOfBlock<Formulation, Law> pack(block, first);
-    Pack x[8][3];
+    Pack x[Formulation::kCorners][3];
     pack.gather(block.position, x);
     Pack strain_square, stress_square, hourglass_square, ratio(1.0);
     Formulation::extremes(pack.constants, x, strain_square, stress_square, hourglass_square,
@@ -132,8 +150,8 @@ void step_bound(const BlockInput& block, const Lanes* terms, double* omega_squar
 
 template <class Formulation, class Law>
 constexpr BlockKernel kernel() {
-  return {Formulation::kConstants, Formulation::kPoints * Law::kState, &add_force<Formulation, Law>,
-          &energy<Formulation, Law>, &step_bound<Formulation, Law>};
+  return {Formulation::kCorners,        Formulation::kConstants,   Formulation::kPoints * Law::kState,
+          &add_force<Formulation, Law>, &energy<Formulation, Law>, &step_bound<Formulation, Law>};
 }
 
 }  // namespace CDFP_ISA
@@ -147,6 +165,8 @@ const Kernels CDFP_KERNELS{
       CDFP_ISA::kernel<CDFP_ISA::FullIntegration<CDFP_ISA::PrismPoints>, CDFP_ISA::Elastic>(),
       CDFP_ISA::kernel<CDFP_ISA::FullIntegration<CDFP_ISA::PrismPoints>, CDFP_ISA::RateDependent>(),
       CDFP_ISA::kernel<CDFP_ISA::FullIntegration<CDFP_ISA::HexahedronPoints>, CDFP_ISA::Elastic>(),
-      CDFP_ISA::kernel<CDFP_ISA::FullIntegration<CDFP_ISA::HexahedronPoints>, CDFP_ISA::RateDependent>()}}};
+      CDFP_ISA::kernel<CDFP_ISA::FullIntegration<CDFP_ISA::HexahedronPoints>, CDFP_ISA::RateDependent>(),
+      CDFP_ISA::kernel<CDFP_ISA::Tetrahedron, CDFP_ISA::Elastic>(),
+      CDFP_ISA::kernel<CDFP_ISA::Tetrahedron, CDFP_ISA::RateDependent>()}}};
 
 }  // namespace cdfp

@@ -141,6 +141,7 @@ struct Prism {
 
 template <class Shape>
 struct OnePoint {
+  static constexpr int kCorners = 8;
   static constexpr int kPoints = 1;
   static constexpr int kConstants = Shape::kConstants;
   static constexpr bool kHourglassFollowsLaw = false;  ///< its stiffness is that of a constant modulus

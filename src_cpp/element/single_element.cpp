@@ -2,6 +2,7 @@
 
 #include "element/full_integration.hpp"
 #include "element/one_point.hpp"
+#include "element/tetrahedron.hpp"
 #include "material/elastic.hpp"
 #include "material/rate_dependent.hpp"
 
@@ -32,18 +33,26 @@ void for_kind(BlockKind kind, Visit&& visit) {
       return visit.template operator()<FullIntegration<HexahedronPoints>, Elastic>();
     case BlockKind::full_rate_dependent:
       return visit.template operator()<FullIntegration<HexahedronPoints>, RateDependent>();
+    case BlockKind::tetrahedron_elastic:
+      return visit.template operator()<Tetrahedron, Elastic>();
+    case BlockKind::tetrahedron_rate_dependent:
+      return visit.template operator()<Tetrahedron, RateDependent>();
   }
 }
 
-/// `visit<Formulation>(constants, stress_of)`
+/// `visit<Formulation>(constants, corners, stress_of)`
 template <class Visit>
-void with_stress(const BlockGroup& group, std::size_t slot, Visit&& visit) {
+void with_stress(const BlockGroup& group, std::size_t slot, std::span<const double> position, Visit&& visit) {
   for_kind(group.kind, [&]<class Formulation, class Law>() {
     const std::size_t row = slot / kLanes, lane = slot % kLanes;
     const double* constants = &group.constants[row * Formulation::kConstants].value[lane];
     const double* state =
         Law::kState ? &group.state[row * Formulation::kPoints * Law::kState].value[lane] : nullptr;
-    visit.template operator()<Formulation>(constants, [&](const Symmetric<double>& strain, int point) {
+    double x[Formulation::kCorners][3];
+    for (int corner = 0; corner < Formulation::kCorners; ++corner) {
+      host::gather3(position.data(), group.corner_offsets(slot) + corner * kLanes, x[corner]);
+    }
+    visit.template operator()<Formulation>(constants, x, [&](const Symmetric<double>& strain, int point) {
       return Law::stress(group.plan.constants.material, strain, state + point * Law::kState * kLanes);
     });
   });
@@ -51,25 +60,44 @@ void with_stress(const BlockGroup& group, std::size_t slot, Visit&& visit) {
 
 }  // namespace
 
-Mat3 element_stress(const BlockGroup& group, std::size_t slot, const double (&x)[8][3]) {
+Mat3 element_stress(const BlockGroup& group, std::size_t slot, std::span<const double> position) {
   Mat3 stress;
-  with_stress(group, slot, [&]<class Formulation>(const double* constants, auto&& stress_of) {
-    double sum[3][3];
-    const double volume = Formulation::kirchhoff_stress(constants, x, sum, stress_of);
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) stress(i, j) = sum[i][j] / volume;
-    }
-  });
+  with_stress(group, slot, position,
+              [&]<class Formulation>(const double* constants, const auto& x, auto&& stress_of) {
+                double sum[3][3];
+                const double volume = Formulation::kirchhoff_stress(constants, x, sum, stress_of);
+                for (int i = 0; i < 3; ++i) {
+                  for (int j = 0; j < 3; ++j) stress(i, j) = sum[i][j] / volume;
+                }
+              });
   return stress;
 }
 
-void element_force(const BlockGroup& group, std::size_t slot, const double (&x)[8][3],
+void element_force(const BlockGroup& group, std::size_t slot, std::span<const double> position,
                    std::span<double> force) {
-  with_stress(group, slot, [&]<class Formulation>(const double* constants, auto&& stress_of) {
-    double f[8][3];
-    Formulation::force(group.plan.constants, constants, x, f, stress_of);
-    for (std::size_t i = 0; i < 24; ++i) force[i] = -f[i / 3][i % 3];
-  });
+  with_stress(group, slot, position,
+              [&]<class Formulation>(const double* constants, const auto& x, auto&& stress_of) {
+                double f[Formulation::kCorners][3];
+                Formulation::force(group.plan.constants, constants, x, f, stress_of);
+                for (std::size_t i = 0; i < 3 * Formulation::kCorners; ++i) force[i] = -f[i / 3][i % 3];
+              });
+}
+
+double element_volume(const BlockGroup& group, std::size_t slot, std::span<const double> position) {
+  const auto gathered = [&](auto& x) {
+    for (Eigen::Index corner = 0; corner < x.rows(); ++corner) {
+      x.row(corner) =
+          Eigen::Map<const Eigen::RowVector3d>(&position[group.corner_offsets(slot)[corner * kLanes]]);
+    }
+  };
+  if (group.corners() == 4) {
+    TetrahedronCorners x;
+    gathered(x);
+    return tetrahedron_geometry(x).volume;
+  }
+  Corners x;
+  gathered(x);
+  return hexahedron_volume(x);
 }
 
 }  // namespace cdfp

@@ -8,11 +8,14 @@
 
 namespace cdfp {
 
-/// Mean Cauchy stress, Pa.
-Mat3 element_stress(const BlockGroup& group, std::size_t slot, const double (&x)[8][3]);
+/// Mean Cauchy stress at the nodes' `position`, Pa.
+Mat3 element_stress(const BlockGroup& group, std::size_t slot, std::span<const double> position);
 
 /// Minus the internal force at the corners, with the material state as it is, N.
-void element_force(const BlockGroup& group, std::size_t slot, const double (&x)[8][3],
+void element_force(const BlockGroup& group, std::size_t slot, std::span<const double> position,
                    std::span<double> force);
+
+/// m3; negative where it is inside out.
+double element_volume(const BlockGroup& group, std::size_t slot, std::span<const double> position);
 
 }  // namespace cdfp

@@ -81,19 +81,18 @@ double stiffest(const PartConstants& part, const Vector3d& g) {
   return std::max(most, highest(twist));
 }
 
-/// material and geometric of the mean gradient. In the principal axes of the gradients' metric shear and
-/// normal strains part; the elasticity is isotropic.
-StepTerms mean_terms(const HexahedronGeometry& geometry, const PartConstants& part, double density) {
+/// material and geometric of the mean gradient, from the sum of its squares over the corners. In the
+/// principal axes of the gradients' metric shear and normal strains part; the elasticity is isotropic.
+StepTerms mean_terms(const Matrix3d& metric, int corners, const PartConstants& part, double density) {
   const double lambda = part.material.lambda, mu = part.material.mu;
-  const Matrix3d metric = geometry.gradient.transpose() * geometry.gradient;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(metric, Eigen::EigenvaluesOnly);
   const Vector3d& squares = principal.eigenvalues();
   const Vector3d roots = squares.cwiseSqrt();
   Matrix3d normal = lambda * roots * roots.transpose();
   normal.diagonal() += 2 * mu * squares;
   StepTerms terms;
-  terms.material = 8 / density * std::max(mu * (squares[1] + squares[2]), highest(normal));
-  terms.geometric = 8 / density * squares[2];
+  terms.material = corners / density * std::max(mu * (squares[1] + squares[2]), highest(normal));
+  terms.geometric = corners / density * squares[2];
   return terms;
 }
 
@@ -117,9 +116,13 @@ double StepTerms::bound() const {
   return std::max(material, hourglass) + coupling * std::sqrt(material * hourglass);
 }
 
+StepTerms tetrahedron_terms(const TetrahedronGeometry& geometry, const PartConstants& part, double density) {
+  return mean_terms(geometry.gradient.transpose() * geometry.gradient, 4, part, density);
+}
+
 StepTerms one_point_terms(const HexahedronGeometry& geometry, const PartConstants& part,
                           const Vector3d& hourglass, double density) {
-  StepTerms terms = mean_terms(geometry, part, density);
+  StepTerms terms = mean_terms(geometry.gradient.transpose() * geometry.gradient, 8, part, density);
   const Eigen::Matrix<double, 8, 4> shapes = hourglass_shapes(geometry);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> spread(shapes.transpose() * shapes);
   terms.hourglass = stiffest(part, hourglass) * spread.eigenvalues()[3] * 8 / (density * geometry.volume);
@@ -130,7 +133,7 @@ StepTerms one_point_terms(const HexahedronGeometry& geometry, const PartConstant
 /// The stiffness is that of the mean strains plus that of what the points' gradients d_p differ from the
 /// mean, since these have no mean; the latter works on deviators alone: <= 2 mu sum_p w_p |d_p|^2.
 StepTerms full_terms(const HexahedronGeometry& geometry, const PartConstants& part, double density) {
-  StepTerms terms = mean_terms(geometry, part, density);
+  StepTerms terms = mean_terms(geometry.gradient.transpose() * geometry.gradient, 8, part, density);
   Eigen::Matrix<double, 8, 8> differences = Eigen::Matrix<double, 8, 8>::Zero();
   terms.geometric = 0;
   for (int p = 0; p < 8; ++p) {

@@ -14,6 +14,7 @@ struct StepTerms {
   double bound() const;
 };
 
+StepTerms tetrahedron_terms(const TetrahedronGeometry& geometry, const PartConstants& part, double density);
 StepTerms one_point_terms(const HexahedronGeometry& geometry, const PartConstants& part,
                           const Eigen::Vector3d& hourglass, double density);
 StepTerms full_terms(const HexahedronGeometry& geometry, const PartConstants& part, double density);

@@ -9,7 +9,7 @@ namespace cdfp {
 
 namespace {
 
-/// Mass points of hexahedra: their eight corners' trilinear Gauss points carry the volume.
+/// Gauss points that carry the volume: eight of a hexahedron, four of a tetrahedron.
 struct MassPoints {
   double volume = 0;
   Vec3 first_moment;
@@ -41,6 +41,18 @@ void add_hexahedron(const Mesh& mesh, const Index* corners, MassPoints& points) 
     }
     points.add(det(jacobian), x);
   }
+}
+
+/// Points of Stroud (1971), exact for second moments.
+void add_tetrahedron(const Mesh& mesh, const Index* corners, MassPoints& points) {
+  constexpr double near = 0.58541019662496845, far = 0.13819660112501051;
+  Vec3 x[4], sum;
+  for (int i = 0; i < 4; ++i) {
+    x[i] = Vec3::load(&mesh.coordinates[3 * static_cast<std::size_t>(corners[i])]);
+    sum += x[i];
+  }
+  const double volume = dot(x[1] - x[0], cross(x[2] - x[0], x[3] - x[0])) / 6;
+  for (const Vec3& corner : x) points.add(volume / 4, far * sum + (near - far) * corner);
 }
 
 /// Rotation by the vector `w` (Rodrigues).
@@ -77,7 +89,11 @@ RigidMotion::RigidMotion(const Model& model, Index body, Nodes& nodes) {
   for (Index e = 0; e < model.mesh.element_count(); ++e) {
     if (model.mesh.parts[e] != part) continue;
     const Index* corners = &model.mesh.connectivity[first[e]];
-    add_hexahedron(model.mesh, corners, points);
+    if (model.mesh.types[e] == ElementType::tetrahedron) {
+      add_tetrahedron(model.mesh, corners, points);
+    } else {
+      add_hexahedron(model.mesh, corners, points);
+    }
     for (int i = 0; i < 8; ++i) mine[corners[i]] = true;
   }
   mass_ = given.mass;

@@ -32,9 +32,11 @@ std::optional<std::array<double, 3>> impact_point(const Frame& frame, const std:
   const Index impactor = part_number(frame, "impactor");
   double lowest = 0, count = 0, x = 0, y = 0, top = 0;
   bool any = false;
-  for (std::size_t i = 0; impactor != kNone && i < frame.hexahedra.size(); ++i) {
-    const double* position = &frame.positions[3 * static_cast<std::size_t>(frame.hexahedra[i])];
-    const Index part = frame.parts[i / 8];
+  std::size_t element = 0;
+  for (std::size_t i = 0; impactor != kNone && i < frame.connectivity.size(); ++i) {
+    while (static_cast<std::size_t>(frame.first_corner[element + 1]) <= i) ++element;
+    const double* position = &frame.positions[3 * static_cast<std::size_t>(frame.connectivity[i])];
+    const Index part = frame.parts[element];
     if (std::find(crack_parts.begin(), crack_parts.end(), part) != crack_parts.end()) {
       top = any ? std::max(top, position[2]) : position[2];
       any = true;

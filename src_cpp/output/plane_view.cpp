@@ -126,9 +126,10 @@ std::vector<Point> part_outline(const Frame& frame, Index part, std::span<const 
   std::vector<Point> points;
   for (std::size_t element = 0; element < frame.parts.size(); ++element) {
     if (frame.parts[element] != part) continue;
-    for (std::size_t corner = 0; corner < 8; ++corner)
-      points.push_back(
-          view.project(&positions[3 * static_cast<std::size_t>(frame.hexahedra[8 * element + corner])]));
+    for (Index c = frame.first_corner[element]; c < frame.first_corner[element + 1]; ++c) {
+      points.push_back(view.project(
+          &positions[3 * static_cast<std::size_t>(frame.connectivity[static_cast<std::size_t>(c)])]));
+    }
   }
   const std::vector<Point> modelled = convex_outline(std::move(points));
   std::vector<Point> whole;

@@ -150,8 +150,9 @@ void write_state(hid_t file, const Frame& frame) {
   attribute(state, "step", H5T_NATIVE_INT64, frame.step);
   dataset(state, {"positions", "m", "nodes as they are now"}, frame.positions, 3);
   dataset(state, {"velocities", "m/s", "nodal velocities"}, frame.velocities, 3);
-  dataset(state, {"hexahedra", "1", "corners of the elements in the order of VTK's hexahedron, from 0"},
-          frame.hexahedra, 8);
+  dataset(state, {"connectivity", "1", "corners of all elements in VTK's order, from 0"}, frame.connectivity);
+  dataset(state, {"first_corner", "1", "of each element in the connectivity, and its end"},
+          frame.first_corner);
   dataset(state, {"parts", "1", "part of each element, from 0"}, frame.parts);
   dataset(state, {"von_mises", "Pa", "equivalent stress of each element"}, frame.von_mises);
   dataset(state, {"max_principal", "Pa", "largest principal stress of each element"}, frame.max_principal);

@@ -3,7 +3,8 @@
 ///   /history/<column>        (rows)
 ///   /final                   attributes time_s, step
 ///     positions velocities   (nodes, 3)
-///     hexahedra parts        (elements, 8), (elements)
+///     connectivity           (corners of all elements)
+///     first_corner parts     (elements + 1), (elements)
 ///     part_names             (parts)
 ///     von_mises max_principal (elements)
 ///     cracks/upper lower     (facets, 4) nodes of the two faces, -1 where a triangle has no corner

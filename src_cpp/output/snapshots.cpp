@@ -10,7 +10,7 @@
 namespace cdfp {
 namespace {
 
-constexpr std::uint8_t vtk_triangle = 5, vtk_quad = 9, vtk_hexahedron = 12;
+constexpr std::uint8_t vtk_triangle = 5, vtk_quad = 9, vtk_tetrahedron = 10, vtk_hexahedron = 12;
 
 std::string snapshot_name(const char* prefix, std::size_t number) {
   char text[40];
@@ -19,12 +19,15 @@ std::string snapshot_name(const char* prefix, std::size_t number) {
 }
 
 void write_bulk(const Frame& frame, const std::filesystem::path& path) {
-  const std::size_t elements = frame.hexahedra.size() / 8;
-  std::vector<std::int64_t> offsets(elements);
-  for (std::size_t e = 0; e < elements; ++e) offsets[e] = static_cast<std::int64_t>(8 * (e + 1));
+  const std::size_t elements = frame.parts.size();
+  const std::vector<std::int64_t> ends(frame.first_corner.begin() + 1, frame.first_corner.end());
+  std::vector<std::uint8_t> types(elements, vtk_hexahedron);
+  for (std::size_t e = 0; e < elements; ++e) {
+    if (frame.first_corner[e + 1] - frame.first_corner[e] == 4) types[e] = vtk_tetrahedron;
+  }
   VtuFile file(frame.positions.size() / 3, elements, frame.time);
   file.points(frame.positions);
-  file.cells(frame.hexahedra, offsets, std::vector<std::uint8_t>(elements, vtk_hexahedron));
+  file.cells(frame.connectivity, ends, types);
   file.point_array("velocity", 3, frame.velocities);
   file.cell_array("part", frame.parts);
   if (frame.von_mises.size() == elements) file.cell_array("von_mises", frame.von_mises);

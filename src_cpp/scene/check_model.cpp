@@ -153,7 +153,8 @@ void check_settings(const Model& model) {
 std::vector<std::string> check_model(const Model& model) {
   std::vector<std::string> warnings = check_mesh(model.mesh);
   for (const ElementType type : model.mesh.types) {
-    require(type == ElementType::hexahedron, "a simulation takes hexahedra only; convert the other elements");
+    require(type == ElementType::hexahedron || type == ElementType::tetrahedron,
+            "a simulation takes hexahedra and tetrahedra only; convert the other elements");
   }
   for (const Material& m : model.materials) check_material(m);
   for (const CohesiveLaw& law : model.cohesive_laws) check_law(law);

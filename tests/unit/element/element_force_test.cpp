@@ -11,7 +11,7 @@
 namespace cdfp::test {
 namespace {
 
-enum class Shape { prism, distorted };
+enum class Shape { prism, distorted, tetrahedra };
 struct Case {
   Formulation formulation;
   Shape shape;
@@ -27,8 +27,10 @@ class EveryElement : public testing::TestWithParam<Case> {
     } else {
       distort(mesh.coordinates, 0.2e-3, random_);
     }
+    if (GetParam().shape == Shape::tetrahedra) mesh = cut_into_tetrahedra(mesh);
     model_ = model_of(std::move(mesh), GetParam().formulation);
   }
+  Index corners() const { return GetParam().shape == Shape::tetrahedra ? 4 : 8; }
   Positions deformed(double size) {
     Positions x = mapped(model_.mesh.coordinates, Matrix3d::Identity() + random_matrix(size, random_));
     distort(x, size * 1e-3, random_);
@@ -42,6 +44,7 @@ class EveryElement : public testing::TestWithParam<Case> {
 };
 
 std::string name_of(const testing::TestParamInfo<Case>& info) {
+  if (info.param.shape == Shape::tetrahedra) return "tetrahedra";
   return std::string(info.param.formulation == Formulation::full ? "full" : "one_point") +
          (info.param.shape == Shape::prism ? "_prism" : "_distorted");
 }
@@ -50,7 +53,8 @@ INSTANTIATE_TEST_SUITE_P(Elements, EveryElement,
                          testing::Values(Case{Formulation::one_point, Shape::prism},
                                          Case{Formulation::one_point, Shape::distorted},
                                          Case{Formulation::full, Shape::prism},
-                                         Case{Formulation::full, Shape::distorted}),
+                                         Case{Formulation::full, Shape::distorted},
+                                         Case{Formulation::one_point, Shape::tetrahedra}),
                          name_of);
 
 TEST_P(EveryElement, IsAtRestInItsReference) {
@@ -87,7 +91,7 @@ TEST_P(EveryElement, PassesThePatchTest) {
     const PartEnergy energy = energy_of(elements, x);
     EXPECT_LT(energy.hourglass, 1e-20 * energy.strain + noise * noise / 74e9 * 60e-9);
     double mass = 0;
-    for (Index e = 0; e < model_.mesh.element_count(); ++e) mass += 8 * elements.corner_mass(e);
+    for (Index e = 0; e < model_.mesh.element_count(); ++e) mass += corners() * elements.corner_mass(e);
     EXPECT_NEAR(energy.strain / (0.5 * s.cwiseProduct(strain).sum() * mass / 2500), 1,
                 size < 1e-6 ? 1e-4 : 1e-9);
   }
@@ -161,6 +165,7 @@ TEST_P(EveryElement, GivesNoNetForceOrMoment) {
 TEST_P(EveryElement, MassIsThatOfTheVolume) {
   Model model = model_;
   model.mesh = box_mesh(box_);
+  if (GetParam().shape == Shape::tetrahedra) model.mesh = cut_into_tetrahedra(model.mesh);
   for (double& c : model.mesh.coordinates) c = c + 0.1 * c * c / 5e-3;
   ElementForce elements(model);
   std::vector<double> mass(std::size_t(model.mesh.node_count()), 0.0);
@@ -207,15 +212,15 @@ TEST_P(EveryElement, CornerForcesAddUpToTheForce) {
     Model model = model_;
     model.mesh.types.resize(std::size_t(count));
     model.mesh.parts.resize(std::size_t(count));
-    model.mesh.connectivity.resize(8 * std::size_t(count));
+    model.mesh.connectivity.resize(std::size_t(corners() * count));
     ElementForce elements(model);
     const Positions x = deformed(0.05);
     const std::vector<double> force = force_of(elements, x);
-    std::vector<double> sum(x.size(), 0.0), corner(24);
+    std::vector<double> sum(x.size(), 0.0), corner(3 * std::size_t(corners()));
     for (Index e = 0; e < count; ++e) {
       elements.corner_force(e, x, corner);
-      for (int i = 0; i < 24; ++i) {
-        sum[3 * std::size_t(model.mesh.connectivity[8 * std::size_t(e) + i / 3]) + i % 3] += corner[i];
+      for (int i = 0; i < 3 * corners(); ++i) {
+        sum[3 * std::size_t(model.mesh.connectivity[corners() * e + i / 3]) + i % 3] += corner[i];
       }
     }
     for (std::size_t i = 0; i < sum.size(); ++i) EXPECT_NEAR(sum[i], force[i], 1e-12 * largest(force));
@@ -226,16 +231,17 @@ TEST_P(EveryElement, SplitsItsNodes) {
   ElementForce elements(model_);
   const Positions before = deformed(0.05);
   const std::vector<double> force = force_of(elements, before);
-  // Element 0 gets a copy of its corner 6 for its own.
-  const Index node = model_.mesh.connectivity[6], copy = model_.mesh.node_count();
+  // Element 0 gets a copy of a corner for its own.
+  const Index own = corners() == 4 ? 3 : 6;
+  const Index node = model_.mesh.connectivity[own], copy = model_.mesh.node_count();
   Positions x = before;
   for (int d = 0; d < 3; ++d) x.push_back(before[3 * std::size_t(node) + d]);
-  elements.replace_node(0, 6, copy);
+  elements.replace_node(0, own, copy);
   const std::vector<double> split = force_of(elements, x);
   std::vector<double> corner(24);
   elements.corner_force(0, x, corner);
   for (int d = 0; d < 3; ++d) {
-    EXPECT_NEAR(split[3 * std::size_t(copy) + d], corner[18 + d], 1e-12 * largest(force));
+    EXPECT_NEAR(split[3 * std::size_t(copy) + d], corner[3 * own + d], 1e-12 * largest(force));
     EXPECT_NEAR(split[3 * std::size_t(copy) + d] + split[3 * std::size_t(node) + d],
                 force[3 * std::size_t(node) + d], 1e-12 * largest(force));
   }
@@ -246,10 +252,10 @@ TEST_P(EveryElement, SplitsItsNodes) {
   put(x, copy, at(x, copy) + Vector3d(1e-5, 0, 0));
   const std::vector<double> moved = force_of(elements, x);
   for (Index e = 1; e < model_.mesh.element_count(); ++e) {
-    for (int c = 0; c < 8; ++c) {
-      const Index n = model_.mesh.connectivity[8 * std::size_t(e) + c];
+    for (int c = 0; c < corners(); ++c) {
+      const Index n = model_.mesh.connectivity[corners() * e + c];
       bool of_first = false;
-      for (int k = 0; k < 8; ++k) of_first = of_first || model_.mesh.connectivity[k] == n;
+      for (int k = 0; k < corners(); ++k) of_first = of_first || model_.mesh.connectivity[k] == n;
       if (!of_first) {
         EXPECT_EQ(at(moved, n), at(split, n));
       }
@@ -304,6 +310,53 @@ TEST(ElementForce, KeepsPartsApartAndLeavesRigidOnesOut) {
   ASSERT_EQ(energy.size(), 3u);
   EXPECT_EQ(energy[1].strain, 0);
   EXPECT_NEAR(energy[0].strain / energy[2].strain, 1, 1e-9);
+}
+
+TEST(ElementForce, TetrahedraAndHexahedraHoldTogether) {
+  // Half of the bar in each: under uniform strain they carry the same stress and no node between is pulled.
+  const Box box{4, 2, 2, 4e-3, 2e-3, 2e-3};
+  Mesh mesh = box_mesh(box);
+  const Mesh cut = cut_into_tetrahedra(mesh);
+  Mesh mixed;
+  mixed.coordinates = mesh.coordinates;
+  mixed.part_names = mesh.part_names;
+  for (Index e = 0; e < mesh.element_count(); ++e) {
+    const bool whole = e % 4 < 2;
+    const Mesh& from = whole ? mesh : cut;
+    const Index first = whole ? e : 6 * e, count = whole ? 1 : 6, corners = whole ? 8 : 4;
+    for (Index k = first; k < first + count; ++k) {
+      mixed.types.push_back(from.types[k]);
+      mixed.parts.push_back(0);
+      mixed.connectivity.insert(mixed.connectivity.end(), from.connectivity.begin() + corners * k,
+                                from.connectivity.begin() + corners * (k + 1));
+    }
+  }
+  ElementForce elements(model_of(mixed, Formulation::full));
+  std::mt19937 random(3);
+  const Positions x = mapped(mesh.coordinates, Matrix3d(Matrix3d::Identity() + random_matrix(0.01, random)));
+  const std::vector<double> force = force_of(elements, x);
+  for (Index i = 1; i < box.nx; ++i) {
+    if (i == 2) continue;  // the diagonals of a facet cut in two halve its force otherwise
+    EXPECT_LT(at(force, box.node(i, 1, 1)).norm(), 1e-10 * largest(force));
+  }
+  double mass = 0;
+  for (std::size_t e = 0; e < mixed.types.size(); ++e) {
+    mass += (mixed.types[e] == ElementType::tetrahedron ? 4 : 8) * elements.corner_mass(Index(e));
+  }
+  EXPECT_NEAR(mass, 2500 * 16e-9, 1e-12 * 2500 * 16e-9);
+  EXPECT_EQ(elements.first_inverted(x), kNone);
+}
+
+TEST(ElementForce, NamesTheInvertedTetrahedron) {
+  Mesh mesh = cut_into_tetrahedra(box_mesh({2, 1, 1, 2, 1, 1}));
+  std::swap(mesh.connectivity[4 * 7], mesh.connectivity[4 * 7 + 1]);
+  try {
+    ElementForce elements(model_of(mesh, Formulation::one_point));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Status::bad_mesh);
+    EXPECT_NE(std::string(error.what()).find("element 7 "), std::string::npos);
+  }
 }
 
 TEST(ElementForce, NamesTheInvertedElement) {

@@ -61,6 +61,23 @@ inline Mesh box_mesh(const Box& box) {
   return mesh;
 }
 
+/// Each hexahedron in six tetrahedra around the diagonal 0-6; neighbours match where all are cut alike.
+inline Mesh cut_into_tetrahedra(const Mesh& hexahedra) {
+  static constexpr int kCut[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
+                                     {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+  Mesh mesh;
+  mesh.coordinates = hexahedra.coordinates;
+  mesh.part_names = hexahedra.part_names;
+  for (Index e = 0; e < hexahedra.element_count(); ++e) {
+    for (const auto& corners : kCut) {
+      mesh.types.push_back(ElementType::tetrahedron);
+      mesh.parts.push_back(hexahedra.parts[e]);
+      for (const int c : corners) mesh.connectivity.push_back(hexahedra.connectivity[8 * std::size_t(e) + c]);
+    }
+  }
+  return mesh;
+}
+
 /// Moves every node by up to `amount` in each direction.
 inline void distort(std::vector<double>& coordinates, double amount, std::mt19937& random) {
   std::uniform_real_distribution<double> shift(-amount, amount);

@@ -64,6 +64,32 @@ TEST(StableStep, NeverAboveTheTruthAndNotFarBelow) {
   }
 }
 
+TEST(StableStep, OfATetrahedron) {
+  std::mt19937 random(kSeed);
+  for (int trial = 0; trial < 60; ++trial) {
+    Mesh cube = cut_into_tetrahedra(box_mesh({1, 1, 1, 1e-3, 1e-3, 1e-3}));
+    distort(cube.coordinates, 0.2e-3, random);
+    Mesh mesh;
+    mesh.part_names = cube.part_names;
+    mesh.types = {ElementType::tetrahedron};
+    mesh.parts = {0};
+    mesh.connectivity = {0, 1, 2, 3};
+    for (int c = 0; c < 4; ++c) {
+      const Vector3d corner = at(cube.coordinates, cube.connectivity[4 * (trial % 6) + c]);
+      mesh.coordinates.insert(mesh.coordinates.end(), corner.begin(), corner.end());
+    }
+    const double nu = std::array{0.0, 0.2, 0.3, 0.45, 0.49}[trial % 5];
+    ElementForce elements(model_of(mesh, Formulation::one_point, 74e9, nu));
+    for (const double strain : {0.0, 1e-3, 0.05}) {
+      const Positions x = mapped(mesh.coordinates, Matrix3d::Identity() + random_matrix(strain, random));
+      const double bound = elements.stable_step(x, Threads(1)).step;
+      const double truth = true_step(elements, x, 1e-9);
+      EXPECT_LE(bound, truth * (1 + 1e-6)) << "trial " << trial << " strain " << strain << " seed " << kSeed;
+      EXPECT_GE(bound, truth * (strain > 0.01 ? 0.6 : 0.985)) << "trial " << trial << " strain " << strain;
+    }
+  }
+}
+
 TEST(StableStep, HoldsInAMeshWithItsWorstElement) {
   std::mt19937 random(kSeed);
   const Box box{4, 3, 2, 4e-3, 3e-3, 2e-3};

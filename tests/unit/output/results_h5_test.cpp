@@ -81,8 +81,8 @@ TEST(ResultsH5, history_and_state_come_back_bit_for_bit) {
   EXPECT_EQ(h5.numbers("/final/positions"), state.positions);
   EXPECT_EQ(h5.extent("/final/positions"), (std::vector<hsize_t>{state.positions.size() / 3, 3}));
   EXPECT_EQ(h5.numbers("/final/velocities"), state.velocities);
-  EXPECT_EQ(h5.indices("/final/hexahedra"), state.hexahedra);
-  EXPECT_EQ(h5.extent("/final/hexahedra"), (std::vector<hsize_t>{state.parts.size(), 8}));
+  EXPECT_EQ(h5.indices("/final/connectivity"), state.connectivity);
+  EXPECT_EQ(h5.indices("/final/first_corner"), state.first_corner);
   EXPECT_EQ(h5.indices("/final/parts"), state.parts);
   EXPECT_EQ(h5.numbers("/final/von_mises"), state.frame.von_mises);
   const auto lower = h5.indices("/final/cracks/lower");

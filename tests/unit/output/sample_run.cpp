@@ -46,6 +46,11 @@ struct Plate {
   }
 };
 
+void end_element(State& state, Index part) {
+  state.first_corner.push_back(static_cast<Index>(state.connectivity.size()));
+  state.parts.push_back(part);
+}
+
 void add_impactor(State& state) {
   const double size = 4e-3;
   const Index first = static_cast<Index>(state.positions.size() / 3);
@@ -53,9 +58,13 @@ void add_impactor(State& state) {
     const bool x = (corner & 3) == 1 || (corner & 3) == 2, y = (corner & 3) >= 2;
     const double at[3] = {x ? size : 0, y ? size : 0, corner >= 4 ? 2 * size : 0.1e-3 * (x || y)};
     state.positions.insert(state.positions.end(), at, at + 3);
-    state.hexahedra.push_back(first + corner);
+    state.connectivity.push_back(first + corner);
   }
-  state.parts.push_back(3);
+  end_element(state, 3);
+  const double tip[3] = {0, 0, 3 * size};
+  state.positions.insert(state.positions.end(), tip, tip + 3);
+  for (const Index corner : {4, 5, 7, 8}) state.connectivity.push_back(first + corner);
+  end_element(state, 3);
 }
 
 /// Splits by a face between two columns of nodes through one level; the lower side gets nodes of its own.
@@ -123,8 +132,8 @@ State state(const Run& run, double time) {
       for (int ring = 0; ring < run.rings; ++ring) {
         for (int up = 0; up < 2; ++up)
           for (const auto& [b, a] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
-            state.hexahedra.push_back(plate.node(ray + a, ring + b, level + up));
-        state.parts.push_back(plate.part_of(level));
+            state.connectivity.push_back(plate.node(ray + a, ring + b, level + up));
+        end_element(state, plate.part_of(level));
       }
   add_impactor(state);
   add_cracks(state, plate, time);
@@ -140,7 +149,8 @@ State state(const Run& run, double time) {
   frame.step = std::llround(time / 6e-8);
   frame.positions = state.positions;
   frame.velocities = state.velocities;
-  frame.hexahedra = state.hexahedra;
+  frame.connectivity = state.connectivity;
+  frame.first_corner = state.first_corner;
   frame.parts = state.parts;
   for (std::size_t e = 0; e < state.parts.size(); ++e) {
     frame.von_mises.push_back(60e6 * noise(e, 1, 7));

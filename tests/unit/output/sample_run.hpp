@@ -1,4 +1,4 @@
-/// A made-up run: quarter of a laminated plate in rings and rays around the impact point, with radial and
+/// A made-up run (hexahedra, and one tetrahedron on the impactor): quarter of a laminated plate in rings and rays around the impact point, with radial and
 /// circular cracks that grow.
 #pragma once
 
@@ -17,7 +17,7 @@ struct Run {
 /// Owns what a frame only views.
 struct State {
   std::vector<double> positions, velocities;
-  std::vector<Index> hexahedra, parts;
+  std::vector<Index> connectivity, first_corner{0}, parts;
   Frame frame;
 };
 
