@@ -280,7 +280,6 @@ std::vector<double> measure_elements(const std::vector<bench::Roofline>& machine
       "element", "elements", "threads", "M/s", "flop", "bytes", "GFLOP/s", "GB/s", "of limit");
   std::vector<double> first;
   for (const Scene& scene : scenes) {
-    double reference = 0;
     for (const Index columns : {108, 188, 500}) {
       if (columns > 200 && !large) continue;
       const Model model = plate(scene, scene.shape == Shape::tetrahedra ? columns * 2 / 5 : columns);
@@ -297,15 +296,11 @@ std::vector<double> measure_elements(const std::vector<bench::Roofline>& machine
                     1e-6 * rate, scene.work.operations, scene.work.bytes, 1e-9 * rate * scene.work.operations,
                     1e-9 * rate * scene.work.bytes, 100 * rate / limit);
         results.add(scene.name, count, counts[t], 1e-6 * rate, "M/s");
-        if (columns == 108) {
-          if (t == 0) reference = rate;
-          if (&scene == scenes) first.push_back(1e-6 * rate);
-          results.want(1e-6 * rate >= scene.wanted[t],
-                       std::string(scene.name) + " on " + std::to_string(counts[t]) + " threads");
-        } else if (t == 0 && &scene == scenes) {
-          results.want(rate >= 0.75 * reference,
-                       std::to_string(count) + " elements slower than 46,656 by more than 25 %");
-        }
+        if (columns == 108 && &scene == scenes) first.push_back(1e-6 * rate);
+        // Meshes that leave the caches may be slower by a quarter.
+        results.want(1e-6 * rate >= (columns == 108 ? 1 : 0.75) * scene.wanted[t],
+                     std::string(scene.name) + ", " + std::to_string(count) + " elements on " +
+                         std::to_string(counts[t]) + " threads");
       }
     }
   }
@@ -448,6 +443,7 @@ int main(int argc, char** argv) {
       return 2;
     }
   }
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
   Results results;
   const std::vector<bench::Roofline> machine = measure_machine(results);
   const std::vector<double> ours = measure_elements(machine, large, results);
