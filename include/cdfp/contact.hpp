@@ -27,20 +27,29 @@ class PairRows {
     if (row < sorted_rows()) {
       for (Index i = start_[row]; i < start_[row + 1]; ++i) visit(partners_[i]);
     }
-    for (Index i = head_[row]; i != kNone; i = next_[i]) visit(added_[i]);
+    for (Index i = head_[row]; i != kNone; i = added_[i].next) visit(added_[i].partner);
   }
   bool contains(Index row, Index partner) const;
   /// All pairs as compressed rows, partners ascending: those of row `r` stand in [start[r], start[r + 1]).
   void compress(std::vector<Index>& start, std::vector<Index>& partners) const;
   std::size_t memory() const;
 
-  /// Starts anew from pairs ordered by partner.
-  void assign(Index rows, std::span<const std::array<Index, 2>> row_and_partner);
+  /// The rows of one partner after another: those of the i-th end at `end[i]`.
+  struct Found {
+    std::vector<Index> rows;
+    std::vector<std::size_t> end;
+    void reset(std::int64_t partners) {
+      rows.clear();
+      end.resize(static_cast<std::size_t>(partners));
+    }
+  };
+  /// Starts anew from what was found, piece after piece; the first partner is 0.
+  void assign(Index rows, std::span<const Found> pieces);
   void add_rows(Index count) { head_.resize(head_.size() + count, kNone); }
   void add(Index row, Index partner) {
-    next_.push_back(head_[row]);
+    const Index next = head_[row];
     head_[row] = static_cast<Index>(added_.size());
-    added_.push_back(partner);
+    added_.push_back({partner, next});
   }
 
  private:
@@ -49,7 +58,11 @@ class PairRows {
 
   std::vector<Index> start_{0};
   std::vector<Index> partners_;
-  std::vector<Index> head_, next_, added_;
+  struct Added {
+    Index partner, next;
+  };
+  std::vector<Index> head_;
+  std::vector<Added> added_;
 };
 
 /// What a global search looks at. Entities keep their numbers; new ones are appended.
@@ -66,8 +79,8 @@ struct SurfaceView {
 /// 4.1). A pair is a node in a segment's box grown by the buffer, or two edges whose boxes are at most the
 /// buffer apart along every axis; entities that share a node do not pair.
 ///
-/// The cells of a row lie side by side in a table that is never longer than four times the entities: where
-/// the space has more cells, rows are folded onto one another. Time and memory are linear in the entities.
+/// The cells of a row lie side by side in a table that is never longer than twice the entities: where the
+/// space has more, rows are folded onto one another. Time and memory are linear in the entities.
 class ContactSearch {
  public:
   /// `cell_factor` w1 and `buffer_factor` w2: cell and buffer over the mean segment length.
@@ -77,7 +90,8 @@ class ContactSearch {
   ContactSearch(ContactSearch&&) noexcept;
   ContactSearch& operator=(ContactSearch&&) noexcept;
 
-  void regular(const SurfaceView& surface);
+  /// The same pairs in the same order for any number of threads.
+  void regular(const SurfaceView& surface, int threads = 1);
   /// Adds the pairs of the entities appended since the last call, and those of old segments and edges that
   /// now name other nodes at the same place. Cost: the new entities and what lies near them.
   void adaptive(const SurfaceView& surface, std::span<const Index> renamed_segments = {},
@@ -146,7 +160,7 @@ class SurfaceContact {
 
   enum class Search { none, regular, adaptive };
   Search due(const Arrays& arrays, double step, int threads = 1);
-  void regular_search(const Arrays& arrays);
+  void regular_search(const Arrays& arrays, int threads = 1);
   void adaptive_search(const Arrays& arrays);
   void local_search(const Arrays& arrays, int threads = 1);
   void add_force(const Arrays& arrays, double step, int threads = 1);

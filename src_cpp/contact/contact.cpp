@@ -145,7 +145,7 @@ Contact::Search Contact::due(const Nodes& nodes, double step) {
 
 void Contact::regular_search(const Nodes& nodes, const Threads& threads) {
   stages_->threads = threads.count();
-  stages_->surface.regular_search(Stages::arrays(nodes));
+  stages_->surface.regular_search(Stages::arrays(nodes), stages_->threads);
 }
 
 void Contact::adaptive_search(const Nodes& nodes) {

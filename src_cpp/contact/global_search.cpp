@@ -1,13 +1,16 @@
 #include <cmath>
-#include <limits>
+#include <numeric>
 
 #include "cdfp/contact.hpp"
 #include "cdfp/error.hpp"
 #include "contact/cell_table.hpp"
+#include "core/parallel.hpp"
 
 namespace cdfp {
 
 namespace {
+
+using Corner = std::array<double, 3>;
 
 Corner place(const SurfaceView& surface, Index node) {
   const double* x = &surface.position[3 * static_cast<std::size_t>(node)];
@@ -25,7 +28,15 @@ struct Box {
   void grow(double by) {
     for (int d = 0; d < 3; ++d) low[d] -= by, high[d] += by;
   }
-  double longest() const { return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]}); }
+  bool holds(const Corner& x) const {
+    return (x[0] >= low[0]) & (x[0] <= high[0]) & (x[1] >= low[1]) & (x[1] <= high[1]) & (x[2] >= low[2]) &
+           (x[2] <= high[2]);
+  }
+  bool overlaps(const Box& other) const {
+    bool apart = false;
+    for (int d = 0; d < 3; ++d) apart |= (low[d] > other.high[d]) | (other.low[d] > high[d]);
+    return !apart;
+  }
 };
 
 const Index* corners_of(const SurfaceView& surface, Index segment) {
@@ -42,50 +53,111 @@ Box box_of(const SurfaceView& surface, const Index* nodes, int count) {
   return box;
 }
 
-/// sqrt of a segment's area: half the cross product of a quadrilateral's diagonals.
-double segment_length(const SurfaceView& surface, const Index* nodes) {
-  const bool triangle = nodes[3] == kNone;
-  const Corner a = place(surface, nodes[0]), b = place(surface, nodes[1]), c = place(surface, nodes[2]);
-  const Corner d = triangle ? a : place(surface, nodes[3]);
-  const Corner p{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-  const Corner q{d[0] - b[0], d[1] - b[1], d[2] - b[2]};
-  const double x = p[1] * q[2] - p[2] * q[1], y = p[2] * q[0] - p[0] * q[2], z = p[0] * q[1] - p[1] * q[0];
-  return std::sqrt(0.5 * std::sqrt(x * x + y * y + z * z));
+/// Places in single precision, taken from a point that most of them lie near.
+struct Rough {
+  Double2 origin_xy{}, origin_z{};
+  Float4 operator()(Double2 xy, Double2 z) const {
+    typedef float Float2 __attribute__((vector_size(8)));
+    const auto flat = __builtin_convertvector(xy - origin_xy, Float2);
+    const auto high = __builtin_convertvector(z - origin_z, Float2);
+    return __builtin_shufflevector(flat, high, 0, 1, 2, 3);
+  }
+  Float4 operator()(const Corner& x) const { return (*this)(Double2{x[0], x[1]}, Double2{x[2], 0}); }
+  RoughBox operator()(const Box& box) const { return {(*this)(box.low), (*this)(box.high)}; }
+};
+
+/// Box of a segment, and sqrt of its area: half the cross product of a quadrilateral's diagonals.
+struct SegmentShape {
+  RoughBox box;
+  double length;
+};
+SegmentShape shape_of(const SurfaceView& surface, Index segment, const Rough& rough) {
+  const Index* corners = corners_of(surface, segment);
+  const double* x[4];
+  for (int i = 0; i < 4; ++i) {
+    x[i] = &surface.position[3 * static_cast<std::size_t>(corners[i] == kNone ? corners[0] : corners[i])];
+  }
+  Double2 low_xy{x[0][0], x[0][1]}, low_z{x[0][2], 0}, high_xy = low_xy, high_z = low_z;
+  for (int i = 1; i < 4; ++i) {
+    const Double2 xy{x[i][0], x[i][1]}, z{x[i][2], 0};
+    low_xy = lesser(xy, low_xy), high_xy = greater(xy, high_xy);
+    low_z = lesser(z, low_z), high_z = greater(z, high_z);
+  }
+  const double p0 = x[2][0] - x[0][0], p1 = x[2][1] - x[0][1], p2 = x[2][2] - x[0][2];
+  const double q0 = x[3][0] - x[1][0], q1 = x[3][1] - x[1][1], q2 = x[3][2] - x[1][2];
+  const double a = p1 * q2 - p2 * q1, b = p2 * q0 - p0 * q2, c = p0 * q1 - p1 * q0;
+  return {{rough(low_xy, low_z), rough(high_xy, high_z)}, std::sqrt(0.5 * std::sqrt(a * a + b * b + c * c))};
+}
+
+/// The middle of a few nodes: far outliers do not move it.
+Corner middle(const SurfaceView& surface) {
+  constexpr std::size_t kSamples = 63;
+  const std::size_t count = std::min(surface.nodes.size(), kSamples);
+  Corner center{};
+  if (count == 0) return center;
+  std::array<double, kSamples> sample{};
+  for (int d = 0; d < 3; ++d) {
+    for (std::size_t i = 0; i < count; ++i) {
+      sample[i] = place(surface, surface.nodes[i * surface.nodes.size() / count])[d];
+    }
+    std::nth_element(sample.begin(), sample.begin() + count / 2, sample.begin() + count);
+    center[d] = sample[count / 2];
+  }
+  return center;
+}
+
+/// Moves those that pass to the front and returns how many they are.
+template <class Test>
+std::size_t keep(std::span<Index> ids, const Test& test) {
+  std::size_t kept = 0;
+  for (const Index id : ids) {
+    ids[kept] = id;
+    kept += test(id);
+  }
+  return kept;
+}
+
+/// Larger on all sides by `by`, and enough for rounding.
+RoughBox grown(const RoughBox& box, float by) {
+  constexpr float kUlp = 1.2e-7F;
+  const auto size = [](Float4 x) { return greater(x, -x); };
+  return {box.low - by - kUlp * size(box.low), box.high + by + kUlp * size(box.high)};
 }
 
 /// Boxes in tables by size: level j holds those no longer than `base * 2^j` along any axis, each in the cell
 /// of its lowest corner, so a query needs to reach back by one cell only.
 class BoxLevels {
  public:
-  void reset(const Corner& low, const Corner& high, double base) {
-    low_ = low, high_ = high, base_ = base;
+  void reset(const RoughBox& space, double base) {
+    space_ = space, base_ = static_cast<float>(base);
     levels_.clear();
   }
-  void build(std::span<const BoxEntry> boxes, bool open) {
-    std::vector<std::vector<BoxEntry>> by_level;
-    for (const BoxEntry& box : boxes) {
-      const std::size_t level = level_of(Box{box.low, box.high}.longest());
+  void build(std::span<const RoughBox> boxes, bool open) {
+    std::vector<std::vector<Index>> by_level;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const std::size_t level = level_of(boxes[i]);
       if (by_level.size() <= level) by_level.resize(level + 1);
-      by_level[level].push_back(box);
+      by_level[level].push_back(static_cast<Index>(i));
     }
-    for (std::size_t level = 0; level < by_level.size(); ++level) make_level(by_level[level], open);
+    for (const std::vector<Index>& ids : by_level) {
+      make_level(ids.size());
+      levels_.back().build(boxes, ids, open);
+    }
   }
-  void insert(const BoxEntry& box) {
-    const std::size_t level = level_of(Box{box.low, box.high}.longest());
-    while (levels_.size() <= level) make_level({}, true);
-    levels_[level].insert(box);
+  void insert(const RoughBox& box, Index id) {
+    const std::size_t level = level_of(box);
+    while (levels_.size() <= level) {
+      make_level(0);
+      levels_.back().build({}, {}, true);
+    }
+    levels_[level].insert(box, id);
   }
-  /// `report(entry)` once for every box that overlaps [low, high].
+  /// `report(id)` at most once for a box, and for every one that overlaps `box`.
   template <class Report>
-  void visit(const Corner& low, const Corner& high, Report&& report) const {
-    double length = base_;
-    for (const CellTable<BoxEntry>& level : levels_) {
-      if (level.size() > 0) {
-        const double back = length * (1 + 1e-6);
-        level.visit(
-            {low[0] - back, low[1] - back, low[2] - back}, high,
-            [&](const BoxEntry& e) { return overlap(e.low, e.high, low, high); }, report);
-      }
+  void visit(const RoughBox& box, Report&& report) const {
+    float length = base_;
+    for (const CellTable<true>& level : levels_) {
+      if (level.size() > 0) level.visit(box.low - 1.0001F * length, box, report);
       length *= 2;
     }
   }
@@ -96,20 +168,22 @@ class BoxLevels {
   }
 
  private:
-  std::size_t level_of(double extent) const {
+  std::size_t level_of(const RoughBox& box) const {
+    const Float4 size = box.high - box.low;
+    const float extent = std::max({size[0], size[1], size[2]});
     std::size_t level = 0;
-    for (double length = base_; length < extent && level < 60; length *= 2) ++level;
+    for (float length = base_; length < extent && level < 60; length *= 2) ++level;
     return level;
   }
-  void make_level(std::span<const BoxEntry> boxes, bool open) {
+  void make_level(std::size_t boxes) {
+    const float length = std::ldexp(base_, static_cast<int>(levels_.size()));
     levels_.emplace_back();
-    levels_.back().reset(low_, high_, std::ldexp(base_, static_cast<int>(levels_.size()) - 1), boxes.size());
-    levels_.back().build(boxes, open);
+    levels_.back().reset(space_, length, boxes);
   }
 
-  Corner low_{}, high_{};
-  double base_ = 1;
-  std::vector<CellTable<BoxEntry>> levels_;
+  RoughBox space_{};
+  float base_ = 1;
+  std::vector<CellTable<true>> levels_;
 };
 
 }  // namespace
@@ -122,49 +196,67 @@ struct ContactSearch::Cells {
   std::size_t entities_then = 0;
   Index nodes = 0, segments = 0, edges = 0;  // taken in so far
 
-  CellTable<PointEntry> node_cells;
+  Rough rough;
+  CellTable<false> node_cells;
   BoxLevels segment_cells, edge_cells;
   PairRows node_segments, edge_edges;
   std::vector<Index> touched_nodes, touched_edges;
+  // As the last call left them, for what a renamed entity was named before.
+  std::vector<Index> row_of_node, corners_then, ends_then;
 
-  std::vector<PointEntry> points;
-  std::vector<BoxEntry> boxes;
-  std::vector<std::array<Index, 2>> pairs;
+  std::vector<Float4> points;
+  std::vector<Index> all_rows;
+  std::vector<RoughBox> boxes, edge_boxes;
+  std::vector<double> lengths;         // sums over pieces
+  std::vector<PairRows::Found> found;  // by piece
 
   static bool may_pair(const SurfaceView& s, Index a, Index b) {
     return a != b && (s.groups.empty() || s.groups[a] < 0 || s.groups[a] != s.groups[b]);
   }
-  static bool node_may_touch(const SurfaceView& s, Index row, const Index* corners) {
-    const Index node = s.nodes[row];
-    return node != corners[0] && node != corners[1] && node != corners[2] && node != corners[3] &&
-           may_pair(s, node, corners[0]);
+  static bool names(const Index* corners, Index node) {
+    return any_equal(Int4{corners[0], corners[1], corners[2], corners[3]}, node - Int4{});
   }
-  static bool edges_may_touch(const SurfaceView& s, Index m, Index n) {
+  static bool share_node(const Index* a, const Index* b) {
+    return a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1];
+  }
+  bool edges_may_touch(const SurfaceView& s, Index m, Index n) const {
     const Index *a = ends_of(s, m), *b = ends_of(s, n);
-    return a[0] != b[0] && a[0] != b[1] && a[1] != b[0] && a[1] != b[1] && may_pair(s, a[0], b[0]);
+    return !share_node(a, b) && may_pair(s, a[0], b[0]) && edge_box(s, m).overlaps(edge_box(s, n));
   }
-  BoxEntry segment_entry(const SurfaceView& s, Index segment) const {
+  Box segment_box(const SurfaceView& s, Index segment) const {
     Box box = box_of(s, corners_of(s, segment), 4);
     box.grow(buffer);
-    return {box.low, box.high, segment};
+    return box;
   }
-  BoxEntry edge_entry(const SurfaceView& s, Index edge) const {
+  Box edge_box(const SurfaceView& s, Index edge) const {
     Box box = box_of(s, ends_of(s, edge), 2);
     box.grow(0.5 * buffer);
-    return {box.low, box.high, edge};
+    return box;
   }
-  /// `report(row)` for the nodes in a segment's grown box that may touch it.
+  /// `report(rows)` with the nodes in a segment's grown box that may touch it.
   template <class Report>
-  void nodes_in(const SurfaceView& s, const BoxEntry& box, Report&& report) const {
-    const Index* corners = corners_of(s, box.id);
-    node_cells.visit(
-        box.low, box.high, [&](const PointEntry& p) { return overlap(p.place, p.place, box.low, box.high); },
-        [&](const PointEntry& p) {
-          if (node_may_touch(s, p.id, corners)) report(p.id);
-        });
+  void nodes_in(const SurfaceView& s, Index segment, const RoughBox& rough_box, Report&& report) const {
+    const Index* const corners = corners_of(s, segment);
+    const Index* const nodes_of_rows = s.nodes.data();
+    node_cells.visit(rough_box.low, rough_box, [&](std::span<Index> rows) {
+      const std::size_t foreign = keep(rows, [&](Index row) { return !names(corners, nodes_of_rows[row]); });
+      if (foreign == 0) return;
+      const Box box = segment_box(s, segment);
+      std::size_t count =
+          keep(rows.first(foreign), [&](Index row) { return box.holds(place(s, nodes_of_rows[row])); });
+      if (!s.groups.empty()) {
+        count =
+            keep(rows.first(count), [&](Index row) { return may_pair(s, nodes_of_rows[row], corners[0]); });
+      }
+      report(rows.first(count));
+    });
   }
 
-  void regular(const SurfaceView& s);
+  void regular(const SurfaceView& s, const Threads& threads);
+  RoughBox place_nodes(const SurfaceView& s, const Threads& threads);
+  void place_segments(const SurfaceView& s, const Threads& threads);
+  void pair_edges(const SurfaceView& s, const RoughBox& space, const Threads& threads);
+  void remember_names(const SurfaceView& s);
   void adaptive(const SurfaceView& s, std::span<const Index> renamed_segments,
                 std::span<const Index> renamed_edges);
   void add_edge_pair(Index m, Index n) {
@@ -173,7 +265,54 @@ struct ContactSearch::Cells {
   }
 };
 
-void ContactSearch::Cells::regular(const SurfaceView& s) {
+/// What is paired or summed together: the same pieces for any number of threads.
+constexpr std::int64_t kPiece = 4096;
+
+RoughBox ContactSearch::Cells::place_nodes(const SurfaceView& s, const Threads& threads) {
+  const Corner origin = middle(s);
+  rough = {Double2{origin[0], origin[1]}, Double2{origin[2], 0}};
+  points.resize(s.nodes.size());
+  threads.for_ranges(nodes, kPiece, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      points[i] = rough(place(s, s.nodes[i]));
+    }
+  });
+  all_rows.resize(points.size());
+  std::iota(all_rows.begin(), all_rows.end(), 0);
+  if (nodes == 0) return {Float4{}, Float4{}};
+  RoughBox space{points[0], points[0]};
+  for (const Float4 point : points) {
+    space.low = lesser(space.low, point);
+    space.high = greater(space.high, point);
+  }
+  return space;
+}
+
+/// Boxes, buffer and cell length.
+void ContactSearch::Cells::place_segments(const SurfaceView& s, const Threads& threads) {
+  boxes.resize(segments);
+  lengths.assign((segments + kPiece - 1) / kPiece, 0);
+  threads.for_ranges(segments, kPiece, [&](std::int64_t begin, std::int64_t end) {
+    double sum = 0;
+    for (std::int64_t m = begin; m < end; ++m) {
+      const SegmentShape shape = shape_of(s, static_cast<Index>(m), rough);
+      boxes[m] = shape.box;
+      sum += shape.length;
+    }
+    lengths[begin / kPiece] = sum;
+  });
+  double sum = 0;
+  for (const double piece : lengths) sum += piece;
+  const double mean = segments > 0 ? sum / segments : 0;
+  if (!std::isfinite(mean)) {
+    throw Error(Status::diverged,
+                "contact search: a segment's corner has a position that is not finite; reduce the step");
+  }
+  length = mean > 0 ? cell_factor * mean : 1;
+  buffer = buffer_factor * mean;
+}
+
+void ContactSearch::Cells::regular(const SurfaceView& s, const Threads& threads) {
   nodes = static_cast<Index>(s.nodes.size());
   segments = static_cast<Index>(s.segments.size() / 4);
   edges = static_cast<Index>(s.edges.size() / 2);
@@ -183,57 +322,66 @@ void ContactSearch::Cells::regular(const SurfaceView& s) {
   touched_nodes.clear();
   touched_edges.clear();
 
-  double sum = 0;
-  boxes.resize(segments);
-  for (Index m = 0; m < segments; ++m) {
-    const Index* corners = corners_of(s, m);
-    const Box box = box_of(s, corners, 4);
-    boxes[m] = {box.low, box.high, m};
-    sum += segment_length(s, corners);
-  }
-  const double mean = segments > 0 ? sum / segments : 0;
-  if (!std::isfinite(mean)) {
-    throw Error(Status::diverged,
-                "contact search: a segment's corner has a position that is not finite; reduce the step");
-  }
-  length = mean > 0 ? cell_factor * mean : 1;
-  buffer = buffer_factor * mean;
+  const RoughBox space = place_nodes(s, threads);
+  place_segments(s, threads);
+  const auto cell = static_cast<float>(length);
+  node_cells.reset(space, 2 * cell, points.size());
+  node_cells.build(points, all_rows, open);
 
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  Box space{{inf, inf, inf}, {-inf, -inf, -inf}};
-  points.resize(s.nodes.size());
-  for (Index i = 0; i < nodes; ++i) {
-    points[i] = {place(s, s.nodes[i]), i};
-    space.include(points[i].place);
-  }
-  if (nodes == 0) space = {{0, 0, 0}, {0, 0, 0}};
-  node_cells.reset(space.low, space.high, length, points.size());
-  node_cells.build(points, open);
-
-  pairs.clear();
-  for (BoxEntry& entry : boxes) {
-    Box box{entry.low, entry.high};
-    box.grow(buffer);
-    entry.low = box.low, entry.high = box.high;
-    nodes_in(s, entry, [&](Index row) { pairs.push_back({row, entry.id}); });
-  }
-  node_segments.assign(nodes, pairs);
+  const float grow = static_cast<float>(buffer * (1 + 1e-6));
+  found.resize(lengths.size());
+  threads.for_ranges(segments, kPiece, [&](std::int64_t begin, std::int64_t end) {
+    PairRows::Found& here = found[begin / kPiece];
+    here.reset(end - begin);
+    for (std::int64_t m = begin; m < end; ++m) {
+      boxes[m] = grown(boxes[m], grow);
+      nodes_in(s, static_cast<Index>(m), boxes[m], [&](std::span<const Index> rows) {
+        here.rows.insert(here.rows.end(), rows.begin(), rows.end());
+      });
+      here.end[m - begin] = here.rows.size();
+    }
+  });
+  node_segments.assign(nodes, found);
   if (open) {
-    segment_cells.reset(space.low, space.high, 2 * length);
+    segment_cells.reset(space, 2 * length);
     segment_cells.build(boxes, true);
+    remember_names(s);
   }
+  pair_edges(s, space, threads);
+}
 
-  boxes.resize(edges);
-  for (Index e = 0; e < edges; ++e) boxes[e] = edge_entry(s, e);
-  edge_cells.reset(space.low, space.high, 1.5 * length);
-  edge_cells.build(boxes, open);
-  pairs.clear();
-  for (const BoxEntry& box : boxes) {
-    edge_cells.visit(box.low, box.high, [&](const BoxEntry& other) {
-      if (other.id < box.id && edges_may_touch(s, other.id, box.id)) pairs.push_back({other.id, box.id});
-    });
-  }
-  edge_edges.assign(edges, pairs);
+void ContactSearch::Cells::pair_edges(const SurfaceView& s, const RoughBox& space, const Threads& threads) {
+  edge_boxes.resize(edges);
+  threads.for_ranges(edges, kPiece, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t e = begin; e < end; ++e) {
+      const auto edge = static_cast<Index>(e);
+      edge_boxes[e] = rough(edge_box(s, edge));
+    }
+  });
+  edge_cells.reset(space, 1.5 * length);
+  edge_cells.build(edge_boxes, open);
+  found.resize((edges + kPiece - 1) / kPiece);
+  threads.for_ranges(edges, kPiece, [&](std::int64_t begin, std::int64_t end) {
+    PairRows::Found& here = found[begin / kPiece];
+    here.reset(end - begin);
+    for (std::int64_t e = begin; e < end; ++e) {
+      const auto edge = static_cast<Index>(e);
+      edge_cells.visit(edge_boxes[e], [&](std::span<const Index> others) {
+        for (const Index other : others) {
+          if (other < edge && edges_may_touch(s, other, edge)) here.rows.push_back(other);
+        }
+      });
+      here.end[e - begin] = here.rows.size();
+    }
+  });
+  edge_edges.assign(edges, found);
+}
+
+void ContactSearch::Cells::remember_names(const SurfaceView& s) {
+  row_of_node.assign(s.position.size() / 3, kNone);
+  for (Index row = 0; row < nodes; ++row) row_of_node[s.nodes[row]] = row;
+  corners_then.assign(s.segments.begin(), s.segments.end());
+  ends_then.assign(s.edges.begin(), s.edges.end());
 }
 
 void ContactSearch::Cells::adaptive(const SurfaceView& s, std::span<const Index> renamed_segments,
@@ -245,46 +393,72 @@ void ContactSearch::Cells::adaptive(const SurfaceView& s, std::span<const Index>
   const Index new_edges = static_cast<Index>(s.edges.size() / 2);
   const auto add = [&](Index row, Index segment) {
     node_segments.add(row, segment);
-    touched_nodes.push_back(row);
+    if (touched_nodes.empty() || touched_nodes.back() != row) touched_nodes.push_back(row);
   };
 
+  // A renamed segment lies where it did: of the old nodes only its former corners are new to it.
+  for (const Index m : renamed_segments) {
+    if (m >= segments) continue;
+    const Index* corners = corners_of(s, m);
+    for (int i = 0; i < 4; ++i) {
+      Index& then = corners_then[4 * static_cast<std::size_t>(m) + i];
+      if (then == corners[i]) continue;
+      const Index row = then < static_cast<Index>(row_of_node.size()) ? row_of_node[then] : kNone;
+      if (row != kNone && !names(corners, then) && may_pair(s, then, corners[0])) add(row, m);
+      then = corners[i];
+    }
+  }
+
   node_segments.add_rows(new_nodes - nodes);
+  if (row_of_node.size() < s.position.size() / 3) row_of_node.resize(s.position.size() / 3, kNone);
   for (Index row = nodes; row < new_nodes; ++row) {
-    const Corner x = place(s, s.nodes[row]);
-    segment_cells.visit(x, x, [&](const BoxEntry& box) {
-      if (node_may_touch(s, row, corners_of(s, box.id))) add(row, box.id);
+    const Index node = s.nodes[row];
+    const Corner x = place(s, node);
+    const Float4 at = rough(x);
+    segment_cells.visit({at, at}, [&](std::span<Index> candidates) {
+      const std::size_t foreign = keep(candidates, [&](Index m) { return !names(corners_of(s, m), node); });
+      for (const Index m : candidates.first(foreign)) {
+        if (segment_box(s, m).holds(x) && may_pair(s, node, corners_of(s, m)[0])) add(row, m);
+      }
     });
-    node_cells.insert({x, row});
+    node_cells.insert(at, row);
+    row_of_node[node] = row;
   }
   nodes = new_nodes;
   for (Index m = segments; m < new_segments; ++m) {
-    const BoxEntry box = segment_entry(s, m);
-    nodes_in(s, box, [&](Index row) { add(row, m); });
-    segment_cells.insert(box);
+    const RoughBox box = rough(segment_box(s, m));
+    nodes_in(s, m, box, [&](std::span<const Index> rows) {
+      for (const Index row : rows) add(row, m);
+    });
+    segment_cells.insert(box, m);
+    corners_then.insert(corners_then.end(), corners_of(s, m), corners_of(s, m) + 4);
   }
   segments = new_segments;
-  for (const Index m : renamed_segments) {
-    nodes_in(s, segment_entry(s, m), [&](Index row) {
-      if (!node_segments.contains(row, m)) add(row, m);
-    });
-  }
 
+  // A renamed edge pairs anew with those that shared a node with it and do so no more.
+  for (const Index e : renamed_edges) {
+    if (e >= edges) continue;
+    Index* then = &ends_then[2 * static_cast<std::size_t>(e)];
+    edge_cells.visit(rough(edge_box(s, e)), [&](std::span<const Index> others) {
+      for (const Index other : others) {
+        if (other == e || !share_node(then, &ends_then[2 * static_cast<std::size_t>(other)])) continue;
+        if (edges_may_touch(s, other, e)) add_edge_pair(other, e);
+      }
+    });
+    std::copy_n(ends_of(s, e), 2, then);
+  }
   edge_edges.add_rows(new_edges - edges);
   for (Index e = edges; e < new_edges; ++e) {
-    const BoxEntry box = edge_entry(s, e);
-    edge_cells.visit(box.low, box.high, [&](const BoxEntry& other) {
-      if (edges_may_touch(s, other.id, e)) add_edge_pair(other.id, e);
+    const RoughBox box = rough(edge_box(s, e));
+    edge_cells.visit(box, [&](std::span<const Index> others) {
+      for (const Index other : others) {
+        if (edges_may_touch(s, other, e)) add_edge_pair(other, e);
+      }
     });
-    edge_cells.insert(box);
+    edge_cells.insert(box, e);
+    ends_then.insert(ends_then.end(), ends_of(s, e), ends_of(s, e) + 2);
   }
   edges = new_edges;
-  for (const Index e : renamed_edges) {
-    const BoxEntry box = edge_entry(s, e);
-    edge_cells.visit(box.low, box.high, [&](const BoxEntry& other) {
-      const Index m = std::min(other.id, e), n = std::max(other.id, e);
-      if (edges_may_touch(s, m, n) && !edge_edges.contains(m, n)) add_edge_pair(m, n);
-    });
-  }
 }
 
 ContactSearch::ContactSearch(double cell_factor, double buffer_factor, bool adaptive)
@@ -301,8 +475,8 @@ ContactSearch::~ContactSearch() = default;
 ContactSearch::ContactSearch(ContactSearch&&) noexcept = default;
 ContactSearch& ContactSearch::operator=(ContactSearch&&) noexcept = default;
 
-void ContactSearch::regular(const SurfaceView& surface) {
-  cells_->regular(surface);
+void ContactSearch::regular(const SurfaceView& surface, int threads) {
+  cells_->regular(surface, Threads(threads));
 }
 void ContactSearch::adaptive(const SurfaceView& surface, std::span<const Index> renamed_segments,
                              std::span<const Index> renamed_edges) {
@@ -342,9 +516,14 @@ std::span<const Index> ContactSearch::touched_edge_rows() const {
 }
 std::size_t ContactSearch::memory() const {
   const Cells& c = *cells_;
+  std::size_t pairs = 0;
+  for (const PairRows::Found& piece : c.found) {
+    pairs += piece.rows.capacity() * sizeof(Index) + piece.end.capacity() * sizeof(std::size_t);
+  }
   return c.node_cells.memory() + c.segment_cells.memory() + c.edge_cells.memory() + c.node_segments.memory() +
-         c.edge_edges.memory() + c.points.capacity() * sizeof(PointEntry) +
-         c.boxes.capacity() * sizeof(BoxEntry) + c.pairs.capacity() * sizeof(c.pairs[0]);
+         c.edge_edges.memory() + c.points.capacity() * sizeof(Float4) +
+         (c.boxes.capacity() + c.edge_boxes.capacity()) * sizeof(RoughBox) + pairs +
+         (c.row_of_node.capacity() + c.corners_then.capacity() + c.ends_then.capacity()) * sizeof(Index);
 }
 
 }  // namespace cdfp

@@ -21,21 +21,32 @@ void PairRows::compress(std::vector<Index>& start, std::vector<Index>& partners)
 }
 
 std::size_t PairRows::memory() const {
-  return (start_.capacity() + partners_.capacity() + head_.capacity() + next_.capacity() +
-          added_.capacity()) *
-         sizeof(Index);
+  return (start_.capacity() + partners_.capacity() + head_.capacity()) * sizeof(Index) +
+         added_.capacity() * sizeof(Added);
 }
 
-void PairRows::assign(Index rows, std::span<const std::array<Index, 2>> row_and_partner) {
-  start_.assign(static_cast<std::size_t>(rows) + 1, 0);
-  for (const auto& pair : row_and_partner) ++start_[pair[0] + 1];
-  for (Index r = 0; r < rows; ++r) start_[r + 1] += start_[r];
-  partners_.resize(row_and_partner.size());
-  for (const auto& pair : row_and_partner) partners_[start_[pair[0]]++] = pair[1];
-  for (Index r = rows; r > 0; --r) start_[r] = start_[r - 1];
-  start_[0] = 0;
+void PairRows::assign(Index rows, std::span<const Found> pieces) {
+  // start_[r + 1] is where row r goes on while it fills, and where it ends when it is full.
+  start_.assign(static_cast<std::size_t>(rows) + 2, 0);
+  Index* const start = start_.data();
+  std::size_t count = 0;
+  for (const Found& piece : pieces) {
+    for (const Index row : piece.rows) ++start[row + 2];
+    count += piece.rows.size();
+  }
+  for (Index r = 0; r < rows; ++r) start[r + 2] += start[r + 1];
+  partners_.resize(count);
+  Index* const partners = partners_.data();
+  Index partner = 0;
+  for (const Found& piece : pieces) {
+    std::size_t i = 0;
+    for (const std::size_t end : piece.end) {
+      for (; i < end; ++i) partners[start[piece.rows[i] + 1]++] = partner;
+      ++partner;
+    }
+  }
+  start_.pop_back();
   head_.assign(rows, kNone);
-  next_.clear();
   added_.clear();
 }
 

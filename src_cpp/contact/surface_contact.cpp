@@ -107,9 +107,9 @@ SurfaceContact::Search SurfaceContact::due(const Arrays& arrays, double step, in
   return s.settings.adaptive ? Search::adaptive : Search::regular;
 }
 
-void SurfaceContact::regular_search(const Arrays& arrays) {
+void SurfaceContact::regular_search(const Arrays& arrays, int threads) {
   Stages& s = *stages_;
-  s.search.regular(s.view(arrays));
+  s.search.regular(s.view(arrays), threads);
   s.grow_to_surface();
   std::fill(s.has_pairs.begin(), s.has_pairs.end(), 0);
   std::fill(s.is_partner.begin(), s.is_partner.end(), 0);

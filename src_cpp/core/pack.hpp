@@ -1,5 +1,5 @@
-/// `Pack`: as many doubles as one vector register holds, by compiler vector extensions. The only file that
-/// names a SIMD type.
+/// `Pack`: as many doubles as one vector register holds, by compiler vector extensions. With
+/// lanes.hpp the only file that names a SIMD type.
 ///
 /// Kernels are compiled once for each instruction set. So that the linker never takes a function of one
 /// variant for another's, everything here lives in a namespace of its own for each variant
