@@ -400,6 +400,7 @@ Frame Simulation::Stages::frame() const {
   Frame f;
   f.time = time;
   f.step = steps;
+  f.reference = nodes.reference;
   f.positions = nodes.position;
   f.velocities = nodes.velocity;
   f.connectivity = connectivity_;

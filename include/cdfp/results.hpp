@@ -51,6 +51,7 @@ struct CrackFacet {
 struct Frame {
   double time = 0;
   std::int64_t step = 0;
+  std::span<const double> reference;    ///< (nodes, 3) undeformed; copies of a split node lie where it lay
   std::span<const double> positions;    ///< (nodes, 3)
   std::span<const double> velocities;   ///< (nodes, 3)
   std::span<const Index> connectivity;  ///< corners of all elements, one element after the other

@@ -69,6 +69,12 @@ Index extrude(const QuadMesh& plane, std::span<const double> levels, std::span<c
   const Index first_node = mesh.node_count();
   const Index first_element = mesh.element_count();
   const Index stride = static_cast<Index>(plane.points.size());
+  const std::size_t elements = parts.size() * plane.quads.size();
+  mesh.coordinates.reserve(mesh.coordinates.size() + 3 * levels.size() * plane.points.size());
+  mesh.connectivity.reserve(mesh.connectivity.size() + 8 * elements);
+  mesh.types.reserve(mesh.types.size() + elements);
+  mesh.parts.reserve(mesh.parts.size() + elements);
+  mesh.layers.reserve(mesh.layers.size() + elements);
   for (const double z : levels) {
     for (const Point& p : plane.points) {
       mesh.coordinates.insert(mesh.coordinates.end(), {p[0], p[1], z});

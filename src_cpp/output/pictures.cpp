@@ -84,8 +84,7 @@ void Pictures::begin(const Frame& frame) {
     picture.part = spoken(parts_[i]);
     picture.copies = copies(frame.symmetry_planes, from_above);
     if (impact) picture.impact = from_above.project(impact->data());
-    if (numbers_[i] != kNone)
-      picture.outline = part_outline(frame, numbers_[i], undeformed_.positions(), from_above);
+    if (numbers_[i] != kNone) picture.outline = part_outline(frame, numbers_[i], frame.reference, from_above);
     cracks_.push_back(std::move(picture));
   }
   begin_section(frame, impact);
@@ -98,7 +97,7 @@ void Pictures::begin_section(const Frame& frame, const std::optional<std::array<
   for (Index part = 0; part < static_cast<Index>(frame.part_names.size()); ++part) {
     if (frame.part_names[static_cast<std::size_t>(part)] == "impactor") continue;
     const bool cracks = std::find(numbers_.begin(), numbers_.end(), part) != numbers_.end();
-    section_.bodies.push_back({part_outline(frame, part, undeformed_.positions(), from_the_front), cracks});
+    section_.bodies.push_back({part_outline(frame, part, frame.reference, from_the_front), cracks});
     const auto& outline = section_.bodies.back().outline;
     if (cracks) cracking.insert(cracking.end(), outline.begin(), outline.end());
   }
@@ -114,10 +113,9 @@ void Pictures::begin_section(const Frame& frame, const std::optional<std::array<
 }
 
 void Pictures::keep(const Frame& frame) {
-  undeformed_.update(frame);
   if (!begun_) begin(frame);
   if (frame.time <= 0) return;
-  const std::span<const double> positions = undeformed_.positions();
+  const std::span<const double> positions = frame.reference;
   CrackPanel section{frame.time, {}};
   for (std::size_t i = 0; i < cracks_.size(); ++i) {
     CrackPanel panel{frame.time, {}};

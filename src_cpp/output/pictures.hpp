@@ -10,7 +10,6 @@
 #include "cdfp/results.hpp"
 #include "output/crack_picture.hpp"
 #include "output/section_picture.hpp"
-#include "output/undeformed.hpp"
 
 namespace cdfp {
 
@@ -32,7 +31,6 @@ class Pictures {
   double section_depth_ = 0;  ///< m, y of the section's plane
   std::vector<CrackPicture> cracks_;
   SectionPicture section_;
-  UndeformedNodes undeformed_;
 };
 
 /// At most `count` of the panels, the last among them, the times spread as evenly as they allow.

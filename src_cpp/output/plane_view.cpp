@@ -123,12 +123,14 @@ std::vector<Point> convex_outline(std::vector<Point> points) {
 
 std::vector<Point> part_outline(const Frame& frame, Index part, std::span<const double> positions,
                                 const View& view) {
+  std::vector<bool> seen(positions.size() / 3, false);
   std::vector<Point> points;
   for (std::size_t element = 0; element < frame.parts.size(); ++element) {
     if (frame.parts[element] != part) continue;
     for (Index c = frame.first_corner[element]; c < frame.first_corner[element + 1]; ++c) {
-      points.push_back(view.project(
-          &positions[3 * static_cast<std::size_t>(frame.connectivity[static_cast<std::size_t>(c)])]));
+      const auto node = static_cast<std::size_t>(frame.connectivity[static_cast<std::size_t>(c)]);
+      if (!seen[node]) points.push_back(view.project(&positions[3 * node]));
+      seen[node] = true;
     }
   }
   const std::vector<Point> modelled = convex_outline(std::move(points));

@@ -185,43 +185,6 @@ TEST(Pictures, the_chosen_panels_end_with_the_last_and_are_spread) {
 }
 
 // Insertion hands corners to copies, and copies of copies: whatever the chain, the place is the mother's.
-TEST(UndeformedNodes, copies_lie_where_their_mother_lay) {
-  const auto seed = std::random_device{}();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed);
-  const Index originals = 50;
-  std::vector<double> start;
-  for (Index i = 0; i < 3 * originals; ++i) start.push_back(i);
-  std::vector<Index> mother;
-  for (Index i = 0; i < originals; ++i) mother.push_back(i);
-  UndeformedNodes nodes;
-  Frame frame;
-  frame.positions = start;
-  nodes.update(frame);
-  std::vector<double> moved = start;
-  for (int round = 0; round < 4; ++round) {
-    for (int k = 0; k < 40; ++k) {
-      CrackFacet facet;
-      for (std::size_t c = 0; c < 4; ++c) {
-        facet.upper[c] =
-            std::uniform_int_distribution<Index>(0, static_cast<Index>(mother.size()) - 1)(random);
-        facet.lower[c] = static_cast<Index>(mother.size());
-        mother.push_back(mother[static_cast<std::size_t>(facet.upper[c])]);
-        moved.insert(moved.end(), {-1, -1, -1});
-        if (random() % 2) std::swap(facet.upper[c], facet.lower[c]);
-      }
-      frame.cracks.push_back(facet);
-    }
-    std::shuffle(frame.cracks.begin(), frame.cracks.end(), random);
-    frame.positions = moved;
-    nodes.update(frame);
-    ASSERT_EQ(nodes.positions().size(), moved.size());
-    for (std::size_t n = 0; n < mother.size(); ++n)
-      for (std::size_t i = 0; i < 3; ++i)
-        ASSERT_EQ(nodes.positions()[3 * n + i], start[3 * static_cast<std::size_t>(mother[n]) + i]);
-  }
-}
-
 TEST(PlaneView, upright_faces_are_lines_and_flat_ones_areas) {
   const std::vector<double> positions = {0, 0, 0, 2, 1, 0, 2, 1, 1, 0, 0, 1, 3, 0, 0, 3, 3, 0.1, 0, 3, 0};
   CrackFacet upright, flat;

@@ -137,6 +137,7 @@ State state(const Run& run, double time) {
       }
   add_impactor(state);
   add_cracks(state, plate, time);
+  state.reference = state.positions;
   // Bending, so that the state differs from the undeformed one.
   for (std::size_t node = 0; node < state.positions.size() / 3; ++node) {
     double* x = &state.positions[3 * node];
@@ -147,6 +148,7 @@ State state(const Run& run, double time) {
   Frame& frame = state.frame;
   frame.time = time;
   frame.step = std::llround(time / 6e-8);
+  frame.reference = state.reference;
   frame.positions = state.positions;
   frame.velocities = state.velocities;
   frame.connectivity = state.connectivity;

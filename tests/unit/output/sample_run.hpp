@@ -1,5 +1,5 @@
-/// A made-up run (hexahedra, and one tetrahedron on the impactor): quarter of a laminated plate in rings and rays around the impact point, with radial and
-/// circular cracks that grow.
+/// A made-up run (hexahedra, and one tetrahedron on the impactor): quarter of a laminated plate in rings and
+/// rays around the impact point, with radial and circular cracks that grow.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ struct Run {
 
 /// Owns what a frame only views.
 struct State {
-  std::vector<double> positions, velocities;
+  std::vector<double> reference, positions, velocities;
   std::vector<Index> connectivity, first_corner{0}, parts;
   Frame frame;
 };
