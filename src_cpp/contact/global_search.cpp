@@ -28,14 +28,19 @@ struct Box {
   void grow(double by) {
     for (int d = 0; d < 3; ++d) low[d] -= by, high[d] += by;
   }
+  /// Without branches: which side fails is as good as random.
   bool holds(const Corner& x) const {
-    return (x[0] >= low[0]) & (x[0] <= high[0]) & (x[1] >= low[1]) & (x[1] <= high[1]) & (x[2] >= low[2]) &
-           (x[2] <= high[2]);
+    int inside = 1;
+    for (int d = 0; d < 3; ++d)
+      inside &= static_cast<int>(x[d] >= low[d]) & static_cast<int>(x[d] <= high[d]);
+    return inside != 0;
   }
   bool overlaps(const Box& other) const {
-    bool apart = false;
-    for (int d = 0; d < 3; ++d) apart |= (low[d] > other.high[d]) | (other.low[d] > high[d]);
-    return !apart;
+    int apart = 0;
+    for (int d = 0; d < 3; ++d) {
+      apart |= static_cast<int>(low[d] > other.high[d]) | static_cast<int>(other.low[d] > high[d]);
+    }
+    return apart == 0;
   }
 };
 
