@@ -368,7 +368,8 @@ void Simulation::Stages::record() {
   shown.reserve(bodies.size());
   for (const RigidMotion& body : bodies) shown.push_back({body.center(), body.velocity(), body.force()});
   monitor.record(time, steps, step_size, now, parts, cohesive ? cohesive->count() : 0,
-                 cohesive ? cohesive->broken_count() : 0, shown);
+                 cohesive ? cohesive->broken_count() : 0, shown,
+                 contact ? contact->body_pairs() : std::span<const SurfaceContact::BodyPair>());
 }
 
 Energies Simulation::Stages::energies(const std::vector<PartEnergy>& parts) const {
@@ -454,6 +455,13 @@ Summary Simulation::Stages::summary() const {
   s.warnings = warnings;
   if (contact) {
     s.deepest_penetration_m = contact->deepest_penetration();
+    for (const SurfaceContact::BodyPair& pair : contact->body_pairs()) {
+      s.contact_pairs.push_back({{model.mesh.part_names[pair.parts[0]], model.mesh.part_names[pair.parts[1]]},
+                                 pair.peak_force,
+                                 pair.stored,
+                                 pair.friction_heat,
+                                 pair.deepest});
+    }
     const std::vector<std::string> more = contact->warnings();
     s.warnings.insert(s.warnings.end(), more.begin(), more.end());
   }

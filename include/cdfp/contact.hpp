@@ -186,6 +186,18 @@ class SurfaceContact {
   std::vector<Touch> touches() const;
   std::size_t touching_count() const;
 
+  /// Two parts that have touched, or one that touched itself; what their pairs sum to.
+  struct BodyPair {
+    std::array<Index, 2> parts{kNone, kNone};  ///< ascending
+    std::array<double, 3> force{};             ///< N, on the first by the second at the last `add_force`
+    double stored = 0;                         ///< J, in springs at the last `add_force`
+    double friction_heat = 0;                  ///< J, so far
+    double peak_force = 0;                     ///< N, so far
+    double deepest = 0;                        ///< m, so far
+  };
+  /// In the order in which they first touched.
+  std::span<const BodyPair> body_pairs() const;
+
   double stored_energy() const;        ///< J, in penalty and stick springs at the last `add_force`
   double friction_heat() const;        ///< J, so far
   double deepest_penetration() const;  ///< m

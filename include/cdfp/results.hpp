@@ -113,6 +113,14 @@ struct Summary {
   double peak_force_time_s = 0;
   double impactor_rebound_mps = std::numeric_limits<double>::quiet_NaN();
   double deepest_penetration_m = 0;
+  struct ContactPair {
+    std::array<std::string, 2> parts;  ///< that have touched; twice the same one: itself
+    double peak_force_n = 0;           ///< on what is modelled
+    double stored_j = 0;               ///< in contact springs at the end
+    double friction_heat_j = 0;
+    double deepest_penetration_m = 0;
+  };
+  std::vector<ContactPair> contact_pairs;
   std::vector<std::string> warnings;
   std::vector<StageSeconds> stages;
 };

@@ -162,6 +162,9 @@ void Contact::add_force(Nodes& nodes, double step, const Threads& threads) {
   stages_->surface.add_force(arrays, step, threads.count());
 }
 
+std::span<const SurfaceContact::BodyPair> Contact::body_pairs() const {
+  return stages_->surface.body_pairs();
+}
 Contact::Energy Contact::energy() const {
   return {stages_->surface.stored_energy(), stages_->surface.friction_heat()};
 }

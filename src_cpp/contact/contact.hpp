@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "cdfp/contact.hpp"
 #include "cdfp/model.hpp"
 #include "cdfp/topology.hpp"
 #include "core/parallel.hpp"
@@ -35,6 +36,7 @@ class Contact {
   /// Penalty and friction forces into `nodes.force`. The same bits for any number of threads.
   void add_force(Nodes& nodes, double step, const Threads& threads);
 
+  std::span<const SurfaceContact::BodyPair> body_pairs() const;
   struct Energy {
     double stored = 0;
     double friction = 0;

@@ -96,14 +96,40 @@ void enforce(TouchingPair& pair, const SurfaceContact::Arrays& arrays, double fr
 
 }  // namespace
 
+SurfaceContact::BodyPair& SurfaceContact::Stages::body_pair(const TouchingPair& pair) {
+  const auto [low, high] = std::minmax(pair.parts[0], pair.parts[1]);
+  const std::array<Index, 2> parts{low, high};
+  auto found = std::find_if(body_pairs.begin(), body_pairs.end(),
+                            [&](const BodyPair& bodies) { return bodies.parts == parts; });
+  if (found == body_pairs.end()) found = body_pairs.insert(found, BodyPair{.parts = parts});
+  return *found;
+}
+
+void SurfaceContact::Stages::add_to_sums(const TouchingPair& pair) {
+  BodyPair& bodies = body_pair(pair);
+  bodies.stored += pair.stored;
+  bodies.friction_heat += pair.heat;
+  bodies.deepest = std::max(bodies.deepest, -pair.gap);
+  if (pair.stored > 0 && pair.parts[0] != pair.parts[1]) {
+    (pair.parts[0] < pair.parts[1] ? pair.force : -pair.force).add_to(bodies.force.data());
+  }
+  if (-pair.gap > worst.share * pair.height) {
+    const bool edges = pair.first_count == 2;
+    const Index segment = edges ? surface.edge_data(pair.second).segments[0] : pair.second;
+    worst = {-pair.gap / pair.height,       -pair.gap,  pair.nodes[0],
+             surface.data(segment).element, pair.parts, edges};
+  }
+}
+
 void SurfaceContact::add_force(const Arrays& arrays, double step, int threads) {
   Stages& s = *stages_;
   const double friction = s.settings.friction;
-  s.stored = 0;
+  for (BodyPair& bodies : s.body_pairs) bodies.stored = 0, bodies.force = {};
   if (friction > 0) {
     for (const TouchingPair* old : s.ended) {
       const Vec3 slip = step * slip_speed(*old, arrays.velocity.data());
-      s.heat += heat_of_drag(old->grip.drag, Vec3{}, slip, old->grip.stick_energy(), 0);
+      s.body_pair(*old).friction_heat +=
+          heat_of_drag(old->grip.drag, Vec3{}, slip, old->grip.stick_energy(), 0);
     }
   }
   s.ended.clear();
@@ -116,21 +142,16 @@ void SurfaceContact::add_force(const Arrays& arrays, double step, int threads) {
     // One place and one order for the sums at nodes.
     for (const TouchingPair& pair : *pairs) {
       if (pair.ignored) continue;
-      s.stored += pair.stored;
-      s.heat += pair.heat;
+      s.add_to_sums(pair);
       if (pair.stored > 0) {
         for (Index i = 0; i < pair.count; ++i) {
           (pair.weights[i] * pair.force).add_to(&arrays.force[3 * static_cast<std::size_t>(pair.nodes[i])]);
         }
       }
-      s.deepest = std::max(s.deepest, -pair.gap);
-      if (-pair.gap > s.worst.share * pair.height) {
-        const bool edges = pair.first_count == 2;
-        const Index segment = edges ? s.surface.edge_data(pair.second).segments[0] : pair.second;
-        const Surface::SegmentData& data = s.surface.data(segment);
-        s.worst = {-pair.gap / pair.height, -pair.gap, pair.nodes[0], data.element, data.part, edges};
-      }
     }
+  }
+  for (BodyPair& bodies : s.body_pairs) {
+    bodies.peak_force = std::max(bodies.peak_force, norm(Vec3::load(bodies.force.data())));
   }
 }
 

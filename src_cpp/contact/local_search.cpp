@@ -17,6 +17,9 @@ constexpr double kBorder = 1e-6;
 /// A node under a concave ridge projects past both faces, by less than its depth; so far a face still takes
 /// it.
 constexpr double kRidge = 0.02;
+/// A loaded node that slides off a border where nothing else takes it (blocks stacked edge over edge) stays
+/// with its face so far, over the face's radius: to let go would lose what its springs hold.
+constexpr double kOverhang = 0.1;
 /// Gaps above this share of the radius (with its sign) are rounding.
 constexpr double kNoGap = -1e-11;
 constexpr double kLeastSine = 0.05;
@@ -96,14 +99,17 @@ void SurfaceContact::Stages::look_at_node(const double* x, Index active) {
 
   // The face that holds the node keeps it while it stays under it.
   const Index held = holds[row].segment;
+  FacePoint under_held;
+  bool overhangs = false;
   if (held != kNone) {
-    const FacePoint point = project(x, p, held, holds[row].xi, holds[row].eta);
-    const Plane& face = planes[held];
-    if (point.gap < kNoGap * face.radius && point.gap > -surface.data(held).height &&
-        point.outside <= kBorder * face.radius - point.gap) {
-      hit = {held, point};
+    under_held = project(x, p, held, holds[row].xi, holds[row].eta);
+    const double radius = planes[held].radius;
+    const bool behind = under_held.gap < kNoGap * radius && under_held.gap > -surface.data(held).height;
+    if (behind && under_held.outside <= kBorder * radius - under_held.gap) {
+      hit = {held, under_held};
       return;
     }
+    overhangs = behind && holds[row].grip.pressed < 0 && under_held.outside <= kOverhang * radius;
   }
 
   bool have_normal = false;
@@ -157,6 +163,7 @@ void SurfaceContact::Stages::look_at_node(const double* x, Index active) {
       hit = {segment, point};
     }
   });
+  if (hit.segment == kNone && overhangs) hit = {held, under_held};
   wake[row] = hit.segment == kNone ? travel + room : 0;
 }
 
@@ -205,6 +212,7 @@ bool SurfaceContact::Stages::edges_touch(const double* x, Index m, Index n, doub
     touch->count = 4;
     touch->first = m;
     touch->second = n;
+    touch->parts = {surface.data(first.segments[0]).part, surface.data(second.segments[0]).part};
     touch->normal = normal;
     touch->gap = gap;
     touch->stiffness = std::min(first.stiffness, second.stiffness);
@@ -254,6 +262,7 @@ void SurfaceContact::local_search(const Arrays& arrays, int threads) {
     touch.count = c[3] == kNone ? 4 : 5;
     touch.first = row;
     touch.second = hit.segment;
+    touch.parts = {s.surface.part(row), s.surface.data(hit.segment).part};
     touch.normal = hit.point.normal;
     touch.gap = hit.point.gap;
     const Surface::SegmentData& data = s.surface.data(hit.segment);

@@ -29,6 +29,7 @@ struct TouchingPair {
   std::array<double, 5> per_mass{};
   Index first_count = 1, count = 0;
   Index first = kNone, second = kNone;  ///< contact node (row) and segment, or two edges
+  std::array<Index, 2> parts{kNone, kNone};
   enum class Origin { same, moved, fresh } origin = Origin::fresh;  ///< moved: springs come from another pair
   bool ignored = false;                                             ///< edges only
   double gap = 0, stiffness = 0, height = 0;
@@ -105,12 +106,13 @@ struct SurfaceContact::Stages {
   std::vector<Link> links;
   std::vector<TouchingPair> node_touches, old_node_touches, edge_touches, old_edge_touches;
 
-  double heat = 0, stored = 0, deepest = 0;
   struct Deepest {
     double share = 0, depth = 0;
-    Index node = kNone, element = kNone, part = kNone;
+    Index node = kNone, element = kNone;
+    std::array<Index, 2> parts{kNone, kNone};
     bool edges = false;
   } worst;
+  std::vector<BodyPair> body_pairs;
   std::vector<std::string> part_names;
 
   void grow_to_surface();
@@ -127,6 +129,8 @@ struct SurfaceContact::Stages {
   bool edges_touch(const double* x, Index m, Index n, double& room, TouchingPair* touch) const;
   void look_at_edge(const double* x, Index active);
   void hand_over();
+  BodyPair& body_pair(const TouchingPair& pair);
+  void add_to_sums(const TouchingPair& pair);
 };
 
 }  // namespace cdfp

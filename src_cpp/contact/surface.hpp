@@ -46,6 +46,8 @@ class Surface {
   /// Largest penalty of the segments that have had the node.
   double node_stiffness(Index row) const { return node_stiffness_[row]; }
   bool on_surface(Index row) const { return incident_[row] != kNone; }
+  /// Of the segments that have the node; kNone if none has.
+  Index part(Index row) const { return on_surface(row) ? data_[incident_[row] / 4].part : kNone; }
 
   /// `visit(segment)` for the segments that have the node as a corner.
   template <class Visit>

@@ -158,14 +158,6 @@ std::vector<SurfaceContact::Touch> SurfaceContact::touches() const {
   std::vector<Touch> all;
   for (const std::vector<TouchingPair>* pairs : {&s.node_touches, &s.edge_touches}) {
     for (const TouchingPair& p : *pairs) {
-      const bool edges = p.first_count == 2;
-      Index first = kNone;
-      if (edges) {
-        first = s.surface.edge_data(p.first).segments[0];
-      } else {
-        s.surface.for_each_incident(p.first, [&](Index segment) { first = segment; });
-      }
-      const Index second = edges ? s.surface.edge_data(p.second).segments[0] : p.second;
       all.push_back({p.nodes,
                      p.weights,
                      p.first_count,
@@ -173,7 +165,7 @@ std::vector<SurfaceContact::Touch> SurfaceContact::touches() const {
                      {p.normal.x, p.normal.y, p.normal.z},
                      p.gap,
                      {p.force.x, p.force.y, p.force.z},
-                     {first == kNone ? kNone : s.surface.data(first).part, s.surface.data(second).part}});
+                     {p.parts[0], p.parts[1]}});
     }
   }
   return all;
@@ -182,13 +174,22 @@ std::size_t SurfaceContact::touching_count() const {
   return stages_->node_touches.size() + stages_->edge_touches.size();
 }
 double SurfaceContact::stored_energy() const {
-  return stages_->stored;
+  double sum = 0;
+  for (const BodyPair& bodies : stages_->body_pairs) sum += bodies.stored;
+  return sum;
 }
 double SurfaceContact::friction_heat() const {
-  return stages_->heat;
+  double sum = 0;
+  for (const BodyPair& bodies : stages_->body_pairs) sum += bodies.friction_heat;
+  return sum;
 }
 double SurfaceContact::deepest_penetration() const {
-  return stages_->deepest;
+  double deepest = 0;
+  for (const BodyPair& bodies : stages_->body_pairs) deepest = std::max(deepest, bodies.deepest);
+  return deepest;
+}
+std::span<const SurfaceContact::BodyPair> SurfaceContact::body_pairs() const {
+  return stages_->body_pairs;
 }
 
 void SurfaceContact::name_parts(std::vector<std::string> names) {
@@ -198,16 +199,18 @@ void SurfaceContact::name_parts(std::vector<std::string> names) {
 std::vector<std::string> SurfaceContact::warnings() const {
   const Stages::Deepest& worst = stages_->worst;
   if (worst.share <= kWarnShare) return {};
-  const bool named = worst.part >= 0 && worst.part < static_cast<Index>(stages_->part_names.size());
-  char text[400];
-  std::snprintf(
-      text, sizeof text,
-      "contact: %s of node %d went %.3g m deep into element %d%s%s, %.0f %% of that element's height; "
-      "raise contact.penalty_factor or take smaller steps",
-      worst.edges ? "an edge" : "the surface", static_cast<int>(worst.node), worst.depth,
-      static_cast<int>(worst.element), named ? " of part " : "",
-      named ? stages_->part_names[worst.part].c_str() : "", 100 * worst.share);
-  return {text};
+  const auto of_part = [&](Index part) {
+    const bool named = part >= 0 && part < static_cast<Index>(stages_->part_names.size());
+    return named ? " of part " + stages_->part_names[part] : std::string();
+  };
+  char depth[100];
+  std::snprintf(depth, sizeof depth, " went %.3g m deep into element %d", worst.depth,
+                static_cast<int>(worst.element));
+  char share[100];
+  std::snprintf(share, sizeof share, ", %.0f %% of that element's height; ", 100 * worst.share);
+  return {(worst.edges ? "contact: an edge at node " : "contact: node ") + std::to_string(worst.node) +
+          of_part(worst.parts[0]) + depth + of_part(worst.parts[1]) + share +
+          "raise contact.penalty_factor or take smaller steps"};
 }
 
 std::size_t SurfaceContact::memory() const {

@@ -7,6 +7,22 @@
 
 namespace cdfp {
 
+namespace {
+
+std::vector<Index> parts_with_surface(const Model& model) {
+  std::vector<Index> parts;
+  for (const FacetSet& set : model.mesh.facet_sets) {
+    const auto& surfaces = model.contact.surfaces;
+    if (std::find(surfaces.begin(), surfaces.end(), set.name) == surfaces.end()) continue;
+    for (const FacetUse use : set.facets) parts.push_back(model.mesh.parts[use.element]);
+  }
+  std::sort(parts.begin(), parts.end());
+  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+  return parts;
+}
+
+}  // namespace
+
 Monitor::Monitor(const Model& model)
     : part_names_(model.mesh.part_names),
       part_of_element_(model.mesh.parts),
@@ -49,12 +65,25 @@ Monitor::Monitor(const Model& model)
       }
     }
   }
+  const std::vector<Index> touching = parts_with_surface(model);
+  for (std::size_t i = 0; i < touching.size(); ++i) {
+    for (std::size_t j = i + 1; j < touching.size(); ++j) {
+      contact_pairs_.push_back({touching[i], touching[j]});
+      const std::string pair = "contact_" + part_names_[touching[i]] + "_" + part_names_[touching[j]] + "_";
+      for (const char* quantity : {"force_x_n", "force_y_n", "force_z_n", "stored_j", "friction_j"}) {
+        history_.columns.push_back(pair + quantity);
+      }
+    }
+  }
 }
 
-double Monitor::whole(Vec3 force) const {
+Vec3 Monitor::of_whole(Vec3 force) const {
   Vec3 sum;
   for (int d = 0; d < 3; ++d) sum[d] = mirrored_[d] ? 0 : copies_ * force[d];
-  return norm(sum);
+  return sum;
+}
+double Monitor::whole(Vec3 force) const {
+  return norm(of_whole(force));
 }
 
 void Monitor::watch_force(double time, Vec3 force_on_first_body) {
@@ -93,7 +122,8 @@ void Monitor::watch_insertion(double time, const Topology& topology, const Inser
 
 void Monitor::record(double time, std::int64_t step, double step_size, const Energies& energies,
                      const std::vector<PartEnergy>& parts, Index inserted, Index broken,
-                     const std::vector<Body>& bodies) {
+                     const std::vector<Body>& bodies,
+                     std::span<const SurfaceContact::BodyPair> contact_pairs) {
   const double balance = energies.balance();
   extremes_.energy_balance_min = std::min(extremes_.energy_balance_min, balance);
   extremes_.energy_balance_max = std::max(extremes_.energy_balance_max, balance);
@@ -108,9 +138,15 @@ void Monitor::record(double time, std::int64_t step, double step_size, const Ene
                          energies.contact_friction, energies.external_work, balance,
                          static_cast<double>(inserted), static_cast<double>(broken)});
   for (const Body& body : bodies) {
-    Vec3 force;
-    for (int d = 0; d < 3; ++d) force[d] = mirrored_[d] ? 0 : copies_ * body.force[d];
-    for (const Vec3& v : {force, body.velocity, body.position}) row.insert(row.end(), {v.x, v.y, v.z});
+    for (const Vec3& v : {of_whole(body.force), body.velocity, body.position})
+      row.insert(row.end(), {v.x, v.y, v.z});
+  }
+  for (const std::array<Index, 2>& key : contact_pairs_) {
+    const auto pair = std::find_if(contact_pairs.begin(), contact_pairs.end(),
+                                   [&](const SurfaceContact::BodyPair& p) { return p.parts == key; });
+    const SurfaceContact::BodyPair now = pair != contact_pairs.end() ? *pair : SurfaceContact::BodyPair{};
+    const Vec3 force = of_whole(Vec3::load(now.force.data()));
+    row.insert(row.end(), {force.x, force.y, force.z, now.stored, now.friction_heat});
   }
 }
 

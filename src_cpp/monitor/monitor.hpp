@@ -1,9 +1,12 @@
 /// What a run keeps of itself while it goes: history rows, extremes, first events.
 #pragma once
 
+#include <array>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "cdfp/contact.hpp"
 #include "cdfp/model.hpp"
 #include "cdfp/results.hpp"
 #include "cdfp/topology.hpp"
@@ -29,13 +32,14 @@ class Monitor {
   /// A row of the history.
   void record(double time, std::int64_t step, double step_size, const Energies& energies,
               const std::vector<PartEnergy>& parts, Index inserted, Index broken,
-              const std::vector<Body>& bodies);
+              const std::vector<Body>& bodies, std::span<const SurfaceContact::BodyPair> contact_pairs);
 
   const History& history() const { return history_; }
   /// The fields of the summary that come from watching.
   void fill(Summary& summary) const;
 
  private:
+  Vec3 of_whole(Vec3 force) const;
   double whole(Vec3 force) const;  ///< of the whole structure: mirrored components cancel, others multiply
 
   std::vector<std::string> part_names_;
@@ -45,6 +49,7 @@ class Monitor {
   std::vector<bool> cracks_;
   std::vector<bool> mirrored_{false, false, false};
   double copies_ = 1;
+  std::vector<std::array<Index, 2>> contact_pairs_;  ///< of different parts, by column
   History history_;
   Summary extremes_;
   std::vector<Summary::FirstCrack> first_cracks_;  ///< one a part

@@ -32,6 +32,18 @@ Json list_of(const std::vector<Summary::FirstCrack>& cracks) {
   return list;
 }
 
+Json list_of(const std::vector<Summary::ContactPair>& pairs) {
+  Json list = Json::array();
+  for (const Summary::ContactPair& pair : pairs) {
+    list.push_back({{"parts", pair.parts},
+                    {"peak_force_n", pair.peak_force_n},
+                    {"stored_j", pair.stored_j},
+                    {"friction_heat_j", pair.friction_heat_j},
+                    {"deepest_penetration_m", pair.deepest_penetration_m}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string summary_json(const Summary& s) {
@@ -72,6 +84,7 @@ std::string summary_json(const Summary& s) {
       {"peak_force_time_s", s.peak_force_time_s},
       {"impactor_rebound_mps", s.impactor_rebound_mps},
       {"deepest_penetration_m", s.deepest_penetration_m},
+      {"contact_pairs", list_of(s.contact_pairs)},
       {"stage_seconds", Json::object()},
       {"stage_calls", Json::object()},
       {"warnings", s.warnings},

@@ -47,6 +47,12 @@ TEST(Forces, OneNodeOnAFaceIsPushedByThePenalty) {
   EXPECT_LT(norm(moment), 1e-12 * touch.force[2] * 1e-3);
   EXPECT_EQ(touch.parts[0], 1);
   EXPECT_EQ(touch.parts[1], 0);
+  ASSERT_EQ(scene.contact.body_pairs().size(), 1u);
+  const SurfaceContact::BodyPair& bodies = scene.contact.body_pairs()[0];
+  EXPECT_EQ(bodies.parts, (std::array<Index, 2>{0, 1}));
+  EXPECT_EQ(bodies.force[2], -touch.force[2]) << "on the first part, by the second";
+  EXPECT_EQ(bodies.peak_force, touch.force[2]);
+  EXPECT_NEAR(bodies.stored, 0.5 * touch.force[2] * depth, 1e-9 * bodies.stored);
 }
 
 TEST(Forces, ClearOfTheFaceThereIsNone) {
@@ -75,8 +81,9 @@ TEST(Forces, DeepPenetrationIsReportedWithItsPair) {
   scene.contact.name_parts({"floor", "die"});
   scene.step(1e-9);
   ASSERT_EQ(scene.contact.warnings().size(), 1u);
-  EXPECT_NE(scene.contact.warnings()[0].find("of part floor"), std::string::npos)
-      << scene.contact.warnings()[0];
+  for (const char* part : {"of part floor", "of part die"}) {
+    EXPECT_NE(scene.contact.warnings()[0].find(part), std::string::npos) << scene.contact.warnings()[0];
+  }
 }
 
 TEST(Forces, StiffnessKeepsToTheStep) {
