@@ -6,6 +6,11 @@
 using namespace cdfp;
 using namespace cdfp::gate;
 
+static_assert(int32_t(CohesiveKind::linear) == CDFP_LINEAR &&
+              int32_t(CohesiveKind::camacho_ortiz) == CDFP_CAMACHO_ORTIZ &&
+              int32_t(CohesiveKind::bilinear) == CDFP_BILINEAR && int32_t(CohesiveKind::user) == CDFP_USER);
+static_assert(int32_t(StressRecovery::element_mean) == CDFP_ELEMENT_MEAN &&
+              int32_t(StressRecovery::nodal) == CDFP_NODAL);
 static_assert(int32_t(Formulation::one_point) == CDFP_ONE_POINT && int32_t(Formulation::full) == CDFP_FULL);
 
 namespace {
@@ -129,7 +134,12 @@ int32_t cdfp_cohesive_law_default(cdfp_cohesive_law* law) {
             .shear_ratio = d.shear_ratio,
             .friction = d.friction,
             .friction_exponent = d.friction_exponent,
-            .internal_friction = d.internal_friction};
+            .internal_friction = d.internal_friction,
+            .stiffness = d.stiffness,
+            .weibull_modulus = d.weibull_modulus,
+            .weibull_area = d.weibull_area,
+            .seed = d.seed,
+            .kind = static_cast<int32_t>(d.kind)};
   });
 }
 
@@ -137,6 +147,7 @@ int32_t cdfp_model_add_cohesive_law(cdfp_model* model, const char* name, const c
   return guarded(__func__, [&] {
     const Change m(model);
     need(law, "law");
+    need_number(law->kind, 4, "kind");
     m->cohesive_laws.push_back({.name = name_of(name, "name"),
                                 .strength = law->strength,
                                 .fracture_energy = law->fracture_energy,
@@ -144,7 +155,74 @@ int32_t cdfp_model_add_cohesive_law(cdfp_model* model, const char* name, const c
                                 .shear_ratio = law->shear_ratio,
                                 .friction = law->friction,
                                 .friction_exponent = law->friction_exponent,
-                                .internal_friction = law->internal_friction});
+                                .internal_friction = law->internal_friction,
+                                .kind = static_cast<CohesiveKind>(law->kind),
+                                .stiffness = law->stiffness,
+                                .weibull_modulus = law->weibull_modulus,
+                                .weibull_area = law->weibull_area,
+                                .seed = law->seed});
+  });
+}
+
+int32_t cdfp_model_set_cohesive_callback(cdfp_model* model, const char* cohesive_law,
+                                         cdfp_cohesive_callback callback, int32_t states, void* user_data) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    const std::string name = name_of(cohesive_law, "cohesive_law");
+    if (!callback) refuse("argument 'callback' is null; give the function that computes the traction");
+    const auto law = std::find_if(m->cohesive_laws.begin(), m->cohesive_laws.end(),
+                                  [&](const CohesiveLaw& l) { return l.name == name; });
+    if (law == m->cohesive_laws.end()) refuse("there is no cohesive law '" + name + "'; add it first");
+    law->states = states;
+    law->callback = [callback, user_data](const CohesivePoints& p) {
+      const cdfp_cohesive_points points = {.count = p.count,
+                                           .time = p.time,
+                                           .step = p.step,
+                                           .opening = p.opening,
+                                           .normal = p.normal,
+                                           .insertion_traction = p.insertion_traction,
+                                           .state = p.state,
+                                           .traction = p.traction,
+                                           .stored = p.stored,
+                                           .damage = p.damage};
+      callback(&points, user_data);
+    };
+  });
+}
+
+int32_t cdfp_model_add_bond(cdfp_model* model, const char* first_part, const char* second_part,
+                            const char* cohesive_law) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    m->bonds.push_back({.facet_set = {},
+                        .parts = {name_of(first_part, "first_part"), name_of(second_part, "second_part")},
+                        .cohesive_law = name_of(cohesive_law, "cohesive_law")});
+  });
+}
+
+int32_t cdfp_model_add_bonded_facets(cdfp_model* model, const char* facet_set, const char* cohesive_law) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    m->bonds.push_back({.facet_set = name_of(facet_set, "facet_set"),
+                        .parts = {},
+                        .cohesive_law = name_of(cohesive_law, "cohesive_law")});
+  });
+}
+
+int32_t cdfp_model_set_stress_recovery(cdfp_model* model, int32_t recovery) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    need_number(recovery, 2, "recovery");
+    m->stress_recovery = static_cast<StressRecovery>(recovery);
+  });
+}
+
+int32_t cdfp_model_set_strength_shares(cdfp_model* model, int64_t count, const double* shares) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    const std::size_t n = size_of(count, "count");
+    need_array(shares, count, "shares");
+    m->strength_shares.assign(shares, shares + n);
   });
 }
 
@@ -207,11 +285,14 @@ int32_t cdfp_model_add_prescribed_velocity(cdfp_model* model, const char* node_s
   });
 }
 
-int32_t cdfp_model_add_initial_velocity(cdfp_model* model, const char* part, const double* velocity) {
+int32_t cdfp_model_add_initial_velocity(cdfp_model* model, const char* part, const double* velocity,
+                                        const double* gradient) {
   return guarded(__func__, [&] {
     const Change m(model);
     need(velocity, "velocity");
-    m->initial_velocities.push_back({name_of(part, "part"), vector_or_zero(velocity)});
+    InitialVelocity initial{name_of(part, "part"), vector_or_zero(velocity), {}};
+    if (gradient) std::copy_n(gradient, 9, initial.gradient.begin());
+    m->initial_velocities.push_back(std::move(initial));
   });
 }
 

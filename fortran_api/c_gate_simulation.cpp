@@ -188,6 +188,7 @@ int32_t cdfp_simulation_summary(const cdfp_simulation* simulation, cdfp_summary*
                 .energy_balance_max = s.energy_balance_max,
                 .hourglass_over_strain_max = s.hourglass_over_strain_max,
                 .cohesive_dissipated_over_ga = s.cohesive_dissipated_over_ga,
+                .cohesive_slope_cost_j = s.cohesive_slope_cost_j,
                 .first_contact_s = s.first_contact_s,
                 .peak_force_n = s.peak_force_n,
                 .peak_force_time_s = s.peak_force_time_s,

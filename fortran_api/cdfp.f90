@@ -16,7 +16,8 @@ module cdfp
     CDFP_OK, CDFP_BAD_ARGUMENT, CDFP_BAD_INPUT, CDFP_BAD_MESH, CDFP_BAD_STATE, CDFP_DIVERGED, CDFP_IO, &
     CDFP_UNAVAILABLE, CDFP_INTERNAL, CDFP_REGULAR, CDFP_GRADED, CDFP_O_GRID, CDFP_IRREGULAR, CDFP_ONE_POINT, &
     CDFP_FULL, CDFP_HEXAHEDRON, CDFP_TETRAHEDRON, CDFP_WEDGE, CDFP_PYRAMID, CDFP_COHESIVE_QUADRILATERAL, &
-    CDFP_COHESIVE_TRIANGLE, cdfp_laminated_plate, cdfp_energies, cdfp_body_state, cdfp_summary
+    CDFP_COHESIVE_TRIANGLE, CDFP_LINEAR, CDFP_CAMACHO_ORTIZ, CDFP_BILINEAR, CDFP_USER, CDFP_ELEMENT_MEAN, &
+    CDFP_NODAL, cdfp_cohesive_points, cdfp_laminated_plate, cdfp_energies, cdfp_body_state, cdfp_summary
   use cdfp_meshes, only: cdfp_mesh, default_laminated_plate, assignment(=)
   use cdfp_models, only: cdfp_model, assignment(=)
   use cdfp_simulations, only: cdfp_simulation, cdfp_recorder, assignment(=)

@@ -2,7 +2,7 @@
 !> from 0 here and strings end with c_null_char; the module `cdfp` is what Fortran programs call. Results are
 !> `intent(inout)` since a call that fails leaves them as they are.
 module cdfp_c
-  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int32_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int32_t, c_int64_t, c_ptr
   implicit none
   public
 
@@ -11,6 +11,8 @@ module cdfp_c
     CDFP_DIVERGED = 5, CDFP_IO = 6, CDFP_UNAVAILABLE = 7, CDFP_INTERNAL = 8
   integer(c_int32_t), parameter :: CDFP_REGULAR = 0, CDFP_GRADED = 1, CDFP_O_GRID = 2, CDFP_IRREGULAR = 3
   integer(c_int32_t), parameter :: CDFP_ONE_POINT = 0, CDFP_FULL = 1
+  integer(c_int32_t), parameter :: CDFP_LINEAR = 0, CDFP_CAMACHO_ORTIZ = 1, CDFP_BILINEAR = 2, CDFP_USER = 3
+  integer(c_int32_t), parameter :: CDFP_ELEMENT_MEAN = 0, CDFP_NODAL = 1
   integer(c_int32_t), parameter :: &
     CDFP_HEXAHEDRON = 0, CDFP_TETRAHEDRON = 1, CDFP_WEDGE = 2, CDFP_PYRAMID = 3, &
     CDFP_COHESIVE_QUADRILATERAL = 4, CDFP_COHESIVE_TRIANGLE = 5
@@ -23,7 +25,15 @@ module cdfp_c
 
   type, bind(c) :: cdfp_cohesive_law
     real(c_double) :: strength, fracture_energy, mode_ratio, shear_ratio, friction, friction_exponent
-    real(c_double) :: internal_friction
+    real(c_double) :: internal_friction, stiffness, weibull_modulus, weibull_area
+    integer(c_int64_t) :: seed
+    integer(c_int32_t) :: kind
+  end type
+
+  type, bind(c) :: cdfp_cohesive_points
+    integer(c_int64_t) :: count
+    real(c_double) :: time, step
+    type(c_ptr) :: opening, normal, insertion_traction, state, traction, stored, damage
   end type
 
   type, bind(c) :: cdfp_contact_settings
@@ -45,8 +55,8 @@ module cdfp_c
     integer(c_int64_t) :: steps, threads, dt_element, cohesive_inserted, cohesive_broken
     real(c_double) :: simulated_time_s, dt_s, dt_stable_s, wall_s, peak_rss_mb
     real(c_double) :: energy_balance_min, energy_balance_max, hourglass_over_strain_max
-    real(c_double) :: cohesive_dissipated_over_ga, first_contact_s, peak_force_n, peak_force_time_s
-    real(c_double) :: impactor_rebound_mps, deepest_penetration_m
+    real(c_double) :: cohesive_dissipated_over_ga, cohesive_slope_cost_j, first_contact_s, peak_force_n
+    real(c_double) :: peak_force_time_s, impactor_rebound_mps, deepest_penetration_m
   end type
 
   interface
@@ -254,6 +264,46 @@ module cdfp_c
       integer(c_int32_t) :: status
     end function
 
+    function cdfp_model_set_cohesive_callback(model, cohesive_law, callback, states, &
+        user_data) bind(c) result(status)
+      import
+      type(c_ptr), value :: model
+      character(kind=c_char), intent(in) :: cohesive_law(*)
+      type(c_funptr), value :: callback
+      integer(c_int32_t), value :: states
+      type(c_ptr), value :: user_data
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_model_add_bond(model, first_part, second_part, cohesive_law) bind(c) result(status)
+      import
+      type(c_ptr), value :: model
+      character(kind=c_char), intent(in) :: first_part(*), second_part(*), cohesive_law(*)
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_model_add_bonded_facets(model, facet_set, cohesive_law) bind(c) result(status)
+      import
+      type(c_ptr), value :: model
+      character(kind=c_char), intent(in) :: facet_set(*), cohesive_law(*)
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_model_set_stress_recovery(model, recovery) bind(c) result(status)
+      import
+      type(c_ptr), value :: model
+      integer(c_int32_t), value :: recovery
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_model_set_strength_shares(model, count, shares) bind(c) result(status)
+      import
+      type(c_ptr), value :: model
+      integer(c_int64_t), value :: count
+      real(c_double), intent(in) :: shares(*)
+      integer(c_int32_t) :: status
+    end function
+
     function cdfp_model_add_part(model, name, material, formulation, hourglass, &
         cohesive_law) bind(c) result(status)
       import
@@ -296,11 +346,12 @@ module cdfp_c
       integer(c_int32_t) :: status
     end function
 
-    function cdfp_model_add_initial_velocity(model, part, velocity) bind(c) result(status)
+    function cdfp_model_add_initial_velocity(model, part, velocity, gradient) bind(c) result(status)
       import
       type(c_ptr), value :: model
       character(kind=c_char), intent(in) :: part(*)
       real(c_double), intent(in) :: velocity(3)
+      real(c_double), intent(in), optional :: gradient(9)
       integer(c_int32_t) :: status
     end function
 

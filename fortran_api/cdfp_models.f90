@@ -22,6 +22,11 @@ module cdfp_models
     procedure :: add_rate_dependent_material
     procedure :: add_rigid_material
     procedure :: add_cohesive_law
+    procedure :: set_cohesive_callback
+    procedure :: add_bond
+    procedure :: add_bonded_facets
+    procedure :: set_stress_recovery
+    procedure :: set_strength_shares
     procedure :: add_part
     procedure :: add_rigid_body
     procedure :: add_symmetry_plane
@@ -172,16 +177,21 @@ contains
                                               poissons_ratio), stat, errmsg)
   end subroutine
 
-  !> Extrinsic cohesive law: strength (Pa), G_I (J/m2), G_II / G_I (1 if absent), peak shear over strength
-  !> (1), Coulomb coefficient between closed faces (0), exponent of its growth with damage (1), share of a
-  !> pressure that holds the shear on a facet back (0).
+  !> Cohesive law: strength (Pa), G_I (J/m2), G_II / G_I (1 if absent), peak shear over strength (1), Coulomb
+  !> coefficient between closed faces (0), exponent of its growth with damage (1), share of a pressure that
+  !> holds the shear on a facet back (0). `kind`: CDFP_LINEAR (if absent), CDFP_CAMACHO_ORTIZ, CDFP_BILINEAR
+  !> (with `stiffness`, Pa/m) or CDFP_USER. With `weibull_modulus` the strength scatters over the facets by
+  !> `seed`; `weibull_area` (m2) is what `strength` belongs to.
   subroutine add_cohesive_law(this, name, strength, fracture_energy, mode_ratio, shear_ratio, friction, &
-                              friction_exponent, internal_friction, stat, errmsg)
+                              friction_exponent, internal_friction, kind, stiffness, weibull_modulus, &
+                              weibull_area, seed, stat, errmsg)
     class(cdfp_model), intent(in) :: this
     character(len=*), intent(in) :: name
     real(c_double), intent(in) :: strength, fracture_energy
     real(c_double), intent(in), optional :: mode_ratio, shear_ratio, friction, friction_exponent
-    real(c_double), intent(in), optional :: internal_friction
+    real(c_double), intent(in), optional :: internal_friction, stiffness, weibull_modulus, weibull_area
+    integer(c_int32_t), intent(in), optional :: kind
+    integer(c_int64_t), intent(in), optional :: seed
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     type(cdfp_cohesive_law) :: law
@@ -195,8 +205,79 @@ contains
     law%friction = value_or(law%friction, friction)
     law%friction_exponent = value_or(law%friction_exponent, friction_exponent)
     law%internal_friction = value_or(law%internal_friction, internal_friction)
+    if (present(kind)) law%kind = kind
+    law%stiffness = value_or(law%stiffness, stiffness)
+    law%weibull_modulus = value_or(law%weibull_modulus, weibull_modulus)
+    law%weibull_area = value_or(law%weibull_area, weibull_area)
+    if (present(seed)) law%seed = seed
     status = cdfp_model_add_cohesive_law(this%handle%address, c_text(name), law)
     call report(status, stat, errmsg)
+  end subroutine
+
+  !> The traction of a CDFP_USER law: `callback` is `c_funloc` of a `bind(c)` subroutine with the arguments
+  !> `type(cdfp_cohesive_points), intent(in) :: points` and `type(c_ptr), value :: user_data`. It keeps `states`
+  !> numbers (0 if absent) at each point, and is called once a step.
+  subroutine set_cohesive_callback(this, cohesive_law, callback, states, user_data, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: cohesive_law
+    type(c_funptr), intent(in) :: callback
+    integer(c_int32_t), intent(in), optional :: states
+    type(c_ptr), intent(in), optional :: user_data
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t) :: count
+    type(c_ptr) :: user
+
+    count = 0
+    if (present(states)) count = states
+    user = c_null_ptr
+    if (present(user_data)) user = user_data
+    call report(cdfp_model_set_cohesive_callback(this%handle%address, c_text(cohesive_law), callback, count, &
+                                                 user), stat, errmsg)
+  end subroutine
+
+  !> Cohesive elements from the start between all elements of two parts that share nodes, by a CDFP_BILINEAR or
+  !> CDFP_USER law.
+  subroutine add_bond(this, first_part, second_part, cohesive_law, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: first_part, second_part, cohesive_law
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_add_bond(this%handle%address, c_text(first_part), c_text(second_part), &
+                                    c_text(cohesive_law)), stat, errmsg)
+  end subroutine
+
+  !> The same on the facets of a set.
+  subroutine add_bonded_facets(this, facet_set, cohesive_law, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: facet_set, cohesive_law
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_add_bonded_facets(this%handle%address, c_text(facet_set), c_text(cohesive_law)), &
+                stat, errmsg)
+  end subroutine
+
+  !> How the traction on a facet follows from the stresses of elements: CDFP_ELEMENT_MEAN or CDFP_NODAL.
+  subroutine set_stress_recovery(this, recovery, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    integer(c_int32_t), intent(in) :: recovery
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_set_stress_recovery(this%handle%address, recovery), stat, errmsg)
+  end subroutine
+
+  !> Share of its law's strength that each element has; a facet has the mean of its two elements.
+  subroutine set_strength_shares(this, shares, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    real(c_double), intent(in), contiguous :: shares(:)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_set_strength_shares(this%handle%address, size(shares, kind=c_int64_t), shares), &
+                stat, errmsg)
   end subroutine
 
   !> The first part added is number 1 of the mesh's `parts`. `formulation`: CDFP_ONE_POINT (if absent) or
@@ -273,15 +354,21 @@ contains
                                                    size(values, kind=c_int64_t), instants, values), stat, errmsg)
   end subroutine
 
-  !> Of a deformable part.
-  subroutine add_initial_velocity(this, part, velocity, stat, errmsg)
+  !> Of a deformable part: velocity + matmul(gradient, position); no gradient if absent.
+  subroutine add_initial_velocity(this, part, velocity, gradient, stat, errmsg)
     class(cdfp_model), intent(in) :: this
     character(len=*), intent(in) :: part
     real(c_double), intent(in) :: velocity(3)
+    real(c_double), intent(in), optional :: gradient(3, 3)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
 
-    call report(cdfp_model_add_initial_velocity(this%handle%address, c_text(part), velocity), stat, errmsg)
+    if (present(gradient)) then
+      call report(cdfp_model_add_initial_velocity(this%handle%address, c_text(part), velocity, &
+                                                  reshape(transpose(gradient), [9])), stat, errmsg)
+    else
+      call report(cdfp_model_add_initial_velocity(this%handle%address, c_text(part), velocity), stat, errmsg)
+    end if
   end subroutine
 
   subroutine set_gravity(this, gravity, stat, errmsg)

@@ -41,6 +41,7 @@
 #include "integrator/constraints.hpp"
 #include "integrator/rigid_body.hpp"
 #include "monitor/monitor.hpp"
+#include "scene/bonds.hpp"
 #include "scene/scene.hpp"
 #include "state/nodes.hpp"
 
@@ -112,6 +113,8 @@ struct Simulation::Stages {
     for (const Stage& stage : list) clock.time(stage.clock, stage.work);
   }
 
+  void insert(FacetUse lower);
+  void insert_bonds();
   void insert_open_facets();
   void divide_masses_and_forces();
   void update_surface();
@@ -162,8 +165,11 @@ Simulation::Stages::Stages(Model given)
           for (Index e = 0; e < model.mesh.element_count(); ++e) {
             if (model.mesh.parts[e] != part) continue;
             for (Index i = first[e]; i < first[e + 1]; ++i) {
-              Vec3::load(initial.velocity.data())
-                  .store(&nodes.velocity[3 * std::size_t(model.mesh.connectivity[i])]);
+              const Index n = model.mesh.connectivity[i];
+              const double* g = initial.gradient.data();
+              const Mat3 gradient{{Vec3::load(g), Vec3::load(g + 3), Vec3::load(g + 6)}};
+              (Vec3::load(initial.velocity.data()) + gradient * nodes.x0(n))
+                  .store(&nodes.velocity[3 * static_cast<std::size_t>(n)]);
             }
           }
         }
@@ -179,12 +185,16 @@ Simulation::Stages::Stages(Model given)
   }
   if (cracks(model)) {
     criterion.emplace(model);
-    cohesive.emplace(model);
+    for (Index p = 0; p < static_cast<Index>(model.mesh.part_names.size()); ++p) {
+      elements.set_least_strength(p, criterion->strength().least_of_part(p));
+    }
   }
+  if (cracks(model) || !model.bonds.empty()) cohesive.emplace(model);
   if (!model.contact.surfaces.empty()) {
     contact.emplace(model, topology);
     segments_initial = contact->segment_count();
   }
+  insert_bonds();
   list_stages();
 
   choose_step();
@@ -249,23 +259,40 @@ void Simulation::Stages::step() {
   wall_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+/// A cohesive element in the topology, and all but the cohesive zone told of it.
+void Simulation::Stages::insert(FacetUse lower) {
+  topology.insert_cohesive(lower, insertion_);
+  for (const auto& [node, mother] : insertion_.new_nodes) {
+    nodes.clone(mother);
+    split_.push_back(mother);
+    split_.push_back(node);
+  }
+  for (const Insertion::Renumbered& r : insertion_.renumbered) {
+    if (r.element >= topology.bulk_count()) continue;
+    elements.replace_node(r.element, r.corner, r.new_node);
+    connectivity_[first_corner_[r.element] + r.corner] = r.new_node;
+  }
+  constraints.follow(insertion_);
+  if (contact) contact->follow(insertion_);
+}
+
+void Simulation::Stages::insert_bonds() {
+  if (model.bonds.empty()) return;
+  split_.clear();
+  for (const Bond& bond : model.bonds) {
+    for (const FacetUse& lower : bonded_facets(model, bond, topology)) {
+      insert(lower);
+      cohesive->insert_bond(topology, insertion_, bond.cohesive_law, nodes);
+    }
+  }
+  divide_masses_and_forces();
+}
+
 void Simulation::Stages::insert_open_facets() {
   if (open_.empty()) return;
   split_.clear();
   for (const OpenFacet& facet : open_) {
-    topology.insert_cohesive(facet.lower, insertion_);
-    for (const auto& [node, mother] : insertion_.new_nodes) {
-      nodes.clone(mother);
-      split_.push_back(mother);
-      split_.push_back(node);
-    }
-    for (const Insertion::Renumbered& r : insertion_.renumbered) {
-      if (r.element >= topology.bulk_count()) continue;
-      elements.replace_node(r.element, r.corner, r.new_node);
-      connectivity_[first_corner_[r.element] + r.corner] = r.new_node;
-    }
-    constraints.follow(insertion_);
-    if (contact) contact->follow(insertion_);
+    insert(facet.lower);
     cohesive->insert(topology, insertion_, facet, nodes, time);
     monitor.watch_insertion(time, topology, insertion_, nodes);
   }
@@ -336,8 +363,12 @@ void Simulation::Stages::choose_step() {
                     " is inverted or not finite; take a smaller step or a coarser mesh there");
   }
   const double fixed = model.time.fixed_step;
-  next_step_ = fixed > 0 ? fixed : model.time.step_factor * stable.step;
   if (fixed > stable.step && !warned_of_step_) warn_of_step();
+  // Springs between bodies and faces add to the elements' squared frequency at most their own.
+  double springs = cohesive ? cohesive->stiffness_over_mass(nodes) : 0;
+  if (contact) springs += contact->stiffness_over_mass();
+  stable.step = 2 / std::sqrt(4 / (stable.step * stable.step) + springs);
+  next_step_ = fixed > 0 ? fixed : model.time.step_factor * stable.step;
 }
 
 void Simulation::Stages::warn_of_step() {
@@ -447,6 +478,7 @@ Summary Simulation::Stages::summary() const {
     s.cohesive_broken = cohesive->broken_count();
     const CohesiveZone::Energy energy = cohesive->energy();
     s.cohesive_dissipated_over_ga = energy.ga > 0 ? energy.dissipated / energy.ga : 0;
+    s.cohesive_slope_cost_j = energy.slope_cost;
   }
   if (!bodies.empty()) {
     const Vec3 before = Vec3::load(model.rigid_bodies.front().velocity.data());

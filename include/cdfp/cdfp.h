@@ -142,7 +142,14 @@ int32_t cdfp_model_add_rate_dependent_material(cdfp_model* model, const char* na
 int32_t cdfp_model_add_rigid_material(cdfp_model* model, const char* name, double density,
                                       double youngs_modulus, double poissons_ratio);
 
-/** Extrinsic cohesive law: fill it by `cdfp_cohesive_law_default`, then give strength and fracture energy. */
+enum {
+  CDFP_LINEAR = 0,        /**< extrinsic, irreversible, path-dependent (Snozzi and Molinari 2013) */
+  CDFP_CAMACHO_ORTIZ = 1, /**< extrinsic, from a potential while it loads: mode_ratio 1 */
+  CDFP_BILINEAR = 2,      /**< intrinsic, for bonds */
+  CDFP_USER = 3           /**< by `cdfp_model_set_cohesive_callback` */
+};
+
+/** Cohesive law: fill it by `cdfp_cohesive_law_default`, then give strength and fracture energy. */
 typedef struct cdfp_cohesive_law {
   double strength;          /**< Pa */
   double fracture_energy;   /**< G_I, J/m2 */
@@ -151,10 +158,54 @@ typedef struct cdfp_cohesive_law {
   double friction;          /**< Coulomb coefficient between closed faces */
   double friction_exponent; /**< of the growth of friction with damage */
   double internal_friction; /**< share of a pressure that holds the shear on a facet back */
+  double stiffness;       /**< Pa/m: of a bilinear law before its strength; steepest slope of a user's law */
+  double weibull_modulus; /**< of the scatter of the strength over facets; 0: none */
+  double weibull_area;    /**< m2 that `strength` belongs to; 0: each facet's own area */
+  int64_t seed;           /**< of the scatter */
+  int32_t kind;           /**< CDFP_LINEAR and the like */
 } cdfp_cohesive_law;
 
 int32_t cdfp_cohesive_law_default(cdfp_cohesive_law* law);
 int32_t cdfp_model_add_cohesive_law(cdfp_model* model, const char* name, const cdfp_cohesive_law* law);
+
+/** What a user's law is asked for: all its points at a step. Vectors are (count, 3). */
+typedef struct cdfp_cohesive_points {
+  int64_t count;
+  double time;                      /**< s */
+  double step;                      /**< s */
+  const double* opening;            /**< m, upper side minus lower side */
+  const double* normal;             /**< from lower to upper */
+  const double* insertion_traction; /**< Pa, what the law must give at no opening; 0 in a bond */
+  double* state;                    /**< (count, states), 0 at insertion; the law's own */
+  double* traction;                 /**< out: Pa, that the upper side exerts on the lower one */
+  double* stored;                   /**< out: J/m2 that closing gives back */
+  double* damage;                   /**< out: 0 to 1; broken for good at 1 */
+} cdfp_cohesive_points;
+
+typedef void (*cdfp_cohesive_callback)(const cdfp_cohesive_points* points, void* user_data);
+
+/** The traction of the CDFP_USER law of that name. It keeps `states` numbers at each point. Simulations of
+ *  the model call it, once a step; it must not call cdfp with their handles, and `user_data` must live as
+ *  long as they do. */
+int32_t cdfp_model_set_cohesive_callback(cdfp_model* model, const char* cohesive_law,
+                                         cdfp_cohesive_callback callback, int32_t states, void* user_data);
+
+/** Cohesive elements from the start between all elements of two parts that share nodes, or on the facets of a
+ *  set, by a CDFP_BILINEAR or CDFP_USER law. */
+int32_t cdfp_model_add_bond(cdfp_model* model, const char* first_part, const char* second_part,
+                            const char* cohesive_law);
+int32_t cdfp_model_add_bonded_facets(cdfp_model* model, const char* facet_set, const char* cohesive_law);
+
+/** How the traction on a facet follows from the stresses of elements. */
+enum {
+  CDFP_ELEMENT_MEAN = 0, /**< mean of the facet's two elements */
+  CDFP_NODAL = 1         /**< mean over the elements of a part around each corner, then over the corners */
+};
+int32_t cdfp_model_set_stress_recovery(cdfp_model* model, int32_t recovery);
+
+/** `shares` (count, one an element): share of its law's strength that an element has; a facet has the mean of
+ *  its two elements. A count of 0: all have all of it. */
+int32_t cdfp_model_set_strength_shares(cdfp_model* model, int64_t count, const double* shares);
 
 /** The first part added is number 0 of the mesh's `parts`. `cohesive_law` may be NULL or empty: does not
  *  crack. `hourglass`: share of the assumed-strain stiffness (CDFP_ONE_POINT). */
@@ -173,7 +224,10 @@ int32_t cdfp_model_add_symmetry_plane(cdfp_model* model, int32_t axis, double co
  *  `values[0]` for good. */
 int32_t cdfp_model_add_prescribed_velocity(cdfp_model* model, const char* node_set, const int32_t* directions,
                                            int64_t count, const double* times, const double* values);
-int32_t cdfp_model_add_initial_velocity(cdfp_model* model, const char* part, const double* velocity);
+/** velocity + gradient * position. `velocity` (3), m/s; `gradient` (9, row by row), 1/s, may be NULL: none.
+ */
+int32_t cdfp_model_add_initial_velocity(cdfp_model* model, const char* part, const double* velocity,
+                                        const double* gradient);
 int32_t cdfp_model_set_gravity(cdfp_model* model, const double* gravity);
 
 /** What `cdfp_model_get_contact` fills and `cdfp_model_set_contact` takes: get, change what differs, set. */
@@ -248,6 +302,7 @@ typedef struct cdfp_summary {
   double energy_balance_max;
   double hourglass_over_strain_max;
   double cohesive_dissipated_over_ga;
+  double cohesive_slope_cost_j;
   double first_contact_s;
   double peak_force_n;
   double peak_force_time_s;

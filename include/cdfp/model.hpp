@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -50,7 +52,33 @@ enum class Formulation {
   full        ///< 2 x 2 x 2 points, mean volumetric strain (does not lock at nu 0.49)
 };
 
-/// Extrinsic cohesive law (Snozzi and Molinari 2013; Chen, Zang, Xu 2015, eqs. 4-14).
+/// The points of one user's law, all at once: `count` of them at a step. Vectors are (count, 3).
+struct CohesivePoints {
+  std::int64_t count = 0;
+  double time = 0;                             ///< s
+  double step = 0;                             ///< s
+  const double* opening = nullptr;             ///< m, upper side minus lower side
+  const double* normal = nullptr;              ///< from lower to upper
+  const double* insertion_traction = nullptr;  ///< Pa, what the law must give at no opening; 0 in a bond
+  double* state = nullptr;     ///< (count, `CohesiveLaw::states`), 0 at insertion; the law's own
+  double* traction = nullptr;  ///< out: Pa, that the upper side exerts on the lower one
+  double* stored = nullptr;    ///< out: J/m2 that closing gives back
+  double* damage = nullptr;    ///< out: 0 to 1; broken for good at 1
+};
+
+enum class CohesiveKind {
+  /// Extrinsic, irreversible, path-dependent (Snozzi and Molinari 2013; Chen, Zang, Xu 2015, eqs. 4-14).
+  linear,
+  /// Extrinsic, from a potential while it loads (Camacho and Ortiz 1996): `mode_ratio` is 1.
+  camacho_ortiz,
+  /// Intrinsic, for bonds: elastic with `stiffness` up to the strength, then linear down to no traction; the
+  /// triangle below it is the fracture energy.
+  bilinear,
+  /// What `callback` says, at the opening of the step. The step must resolve it.
+  user
+};
+
+/// Cohesive law: traction between two faces by their opening.
 struct CohesiveLaw {
   std::string name;
   double strength = 0;           ///< Pa, sigma_max
@@ -62,6 +90,32 @@ struct CohesiveLaw {
   /// Mohr-Coulomb: on a facet under pressure p only |Tt| - internal_friction * p can open it. For a shear
   /// strength S and a compressive strength C it is (t - 1/t) / 2 with t = C / (2 S).
   double internal_friction = 0;
+  CohesiveKind kind = CohesiveKind::linear;
+  /// Pa/m: slope of a bilinear law before its strength; the steepest slope of a user's law, for the stable
+  /// step.
+  double stiffness = 0;
+  /// m of Weibull's distribution, 0: no scatter. A facet of area A has the strength
+  /// strength * (weibull_area / A * ln(1 / (1 - u)))^(1 / m), with u drawn by `seed` and the facet.
+  double weibull_modulus = 0;
+  double weibull_area = 0;  ///< m2 that `strength` belongs to; 0: each facet's own (no size effect)
+  std::int64_t seed = 0;
+  int states = 0;  ///< numbers that a user's law keeps at each point
+  /// A user's law; never called from two threads at once by one simulation.
+  std::function<void(const CohesivePoints&)> callback = nullptr;
+};
+
+/// Cohesive elements from the start, on a facet set or between all elements of two parts that share nodes,
+/// such as glass and PVB.
+struct Bond {
+  std::string facet_set;               ///< or
+  std::array<std::string, 2> parts{};  ///< both or none
+  std::string cohesive_law;            ///< bilinear or user
+};
+
+/// How the traction on a facet follows from the stresses of elements.
+enum class StressRecovery {
+  element_mean,  ///< mean of the facet's two elements
+  nodal          ///< mean over the elements of a part around each corner, then over the corners
 };
 
 struct Part {
@@ -69,7 +123,7 @@ struct Part {
   std::string material;
   Formulation formulation = Formulation::one_point;
   double hourglass = 1.0;    ///< share of the assumed-strain stiffness (one_point)
-  std::string cohesive_law;  ///< empty: does not crack
+  std::string cohesive_law;  ///< extrinsic (linear, camacho_ortiz or user); empty: does not crack
 };
 
 /// All elements of a part move as one body.
@@ -99,9 +153,11 @@ struct PrescribedVelocity {
   std::vector<double> values;  ///< m/s
 };
 
+/// velocity + gradient * position, such as of a body that spins or expands.
 struct InitialVelocity {
-  std::string part;  ///< a deformable part
-  std::array<double, 3> velocity{};
+  std::string part;                  ///< a deformable part
+  std::array<double, 3> velocity{};  ///< m/s, at the origin
+  std::array<double, 9> gradient{};  ///< 1/s, row by row
 };
 
 struct ContactSettings {
@@ -132,6 +188,11 @@ struct Model {
   std::vector<Material> materials;
   std::vector<Part> parts;
   std::vector<CohesiveLaw> cohesive_laws;
+  std::vector<Bond> bonds;
+  StressRecovery stress_recovery = StressRecovery::element_mean;
+  /// Share of its law's strength that an element has, such as less where a surface is scratched; empty: 1. A
+  /// facet has the mean of its two elements.
+  std::vector<double> strength_shares;
   std::vector<RigidBody> rigid_bodies;
   std::vector<SymmetryPlane> symmetry_planes;
   std::vector<PrescribedVelocity> prescribed_velocities;

@@ -97,9 +97,10 @@ struct Summary {
   double energy_balance_max = 1;
   double hourglass_over_strain_max = 0;  ///< over parts, each against its own largest strain energy
   std::vector<std::pair<std::string, double>> hourglass_over_strain;  ///< each part's
-  Index cohesive_inserted = 0;
+  Index cohesive_inserted = 0;                                        ///< bonds included
   Index cohesive_broken = 0;
   double cohesive_dissipated_over_ga = 0;
+  double cohesive_slope_cost_j = 0;  ///< |work| by which users' laws too steep for the step were bounded
   double first_contact_s = std::numeric_limits<double>::quiet_NaN();
   struct FirstCrack {
     std::string part;

@@ -13,6 +13,7 @@
 #include "cohesive/cluster_solver.hpp"
 #include "cohesive/clusters.hpp"
 #include "cohesive/law.hpp"
+#include "cohesive/user_points.hpp"
 
 namespace cdfp {
 
@@ -22,6 +23,7 @@ namespace {
 /// nodes show in a step. The mean traction takes any stiffness; the plain scheme only what it can follow.
 constexpr double kStiffness = 300;
 constexpr double kPlainStiffness = 0.5;
+constexpr double kUserStiffness = 0.05;  ///< of a user's law, whose kinks must not feed energy in either
 /// Opening over reach, at most, at which that spring carries the strength.
 constexpr double kRigidOpening = 0.01;
 constexpr std::int64_t kGrain = 64;
@@ -48,6 +50,8 @@ struct Point {
   double pressed = 0;  ///< J/m2, stored in contact and the friction spring
   double heat = 0;     ///< J/m2, done against contact and friction, less `pressed`
   double ahead = 0;    ///< J/m2, of the work above: from the step to the half step ahead of it
+  double energy = 0;   ///< J/m2 that the law dissipates, over its growth in m
+  Index user = kNone;  ///< place among its user's law's points
 
   bool exists() const { return upper != lower; }
   bool broken() const { return largest >= softening.reach; }
@@ -62,6 +66,7 @@ struct Facet {
   double orientation = 1;  ///< of the corner order against the normal from lower to upper
   Vec3 normal;
   Vec3 traction;  ///< at insertion
+  bool bond = false;
   bool live = false;
   bool broken = false;
   double insertion_time = 0;
@@ -73,12 +78,14 @@ struct Facet {
 struct CohesiveZone::Points {
   Points(const Model& model, CohesiveScheme chosen);
 
-  void insert(const Topology& topology, const Insertion& insertion, const OpenFacet& open, const Nodes& nodes,
-              double time);
+  void insert(const Topology& topology, const Insertion& insertion, Facet facet, const Nodes& nodes);
+  std::int32_t law_number(const std::string& name) const;
   void follow(const Insertion& insertion);
+  void give_law(Point& point, const Facet& facet);
   void revive(Index facet);
   void add_force(Nodes& nodes, double step, double time, const Threads& threads);
   void turn(Index facet, const Nodes& nodes);
+  void ask_users(const Nodes& nodes, double step, double time);
   void start(Point& point, const Facet& facet, const Nodes& nodes, double step) const;
   void solve_cluster(const Clusters::Cluster& cluster, Nodes& nodes, double step, ClusterSolver& work);
   void load_cluster(const Clusters::Cluster& cluster, const Nodes& nodes, double step,
@@ -87,10 +94,11 @@ struct CohesiveZone::Points {
                   ClusterSolver::Point& p) const;
   void solve_plain(const Clusters::Cluster& cluster, double step, ClusterSolver& work) const;
   void store_cluster(const Clusters::Cluster& cluster, Nodes& nodes, double step, ClusterSolver& work);
+  double opened_to(const Point& point, const Increment& i, const Split& at, std::int32_t law) const;
+  double stored_in(const Point& point, const Increment& i, const Split& at, std::int32_t law) const;
   void retire_broken(double time);
   Energy energy_of(Index facet) const;
 
-  const Law& law_of(Index facet) const { return laws[facets[facet].law]; }
   std::span<const Point> points_of(Index facet) const {
     return {&points[4 * static_cast<std::size_t>(facet)], static_cast<std::size_t>(facets[facet].corners)};
   }
@@ -99,6 +107,7 @@ struct CohesiveZone::Points {
   std::vector<Index> layer_of_element;
   std::vector<std::int32_t> law_of_part;
   std::vector<Law> laws;
+  std::vector<UserPoints> users;  ///< one a law
 
   std::vector<Facet> facets;
   std::vector<Point> points;  ///< four a facet
@@ -123,40 +132,35 @@ CohesiveZone::Points::Points(const Model& model, CohesiveScheme chosen)
                                             "shear_ratio");
     }
     laws.push_back({law, ModeWeights(law)});
+    users.emplace_back(law.states);
   }
   law_of_part.assign(model.mesh.part_names.size(), -1);
   for (const Part& part : model.parts) {
     if (part.cohesive_law.empty()) continue;
     const auto name = std::find(model.mesh.part_names.begin(), model.mesh.part_names.end(), part.name);
-    const auto law = std::find_if(laws.begin(), laws.end(),
-                                  [&](const Law& l) { return l.given.name == part.cohesive_law; });
-    if (name == model.mesh.part_names.end() || law == laws.end()) {
-      throw Error(Status::bad_argument, "part '" + part.name + "' or its cohesive law '" + part.cohesive_law +
-                                            "' does not exist in the model");
+    if (name == model.mesh.part_names.end()) {
+      throw Error(Status::bad_argument, "the mesh has no part '" + part.name + "'");
     }
-    law_of_part[name - model.mesh.part_names.begin()] = static_cast<std::int32_t>(law - laws.begin());
+    law_of_part[name - model.mesh.part_names.begin()] = law_number(part.cohesive_law);
   }
 }
 
-void CohesiveZone::Points::insert(const Topology& topology, const Insertion& insertion, const OpenFacet& open,
-                                  const Nodes& nodes, double time) {
+std::int32_t CohesiveZone::Points::law_number(const std::string& name) const {
+  const auto law = std::find_if(laws.begin(), laws.end(), [&](const Law& l) { return l.given.name == name; });
+  if (law == laws.end()) throw Error(Status::bad_argument, "there is no cohesive law '" + name + "'");
+  return static_cast<std::int32_t>(law - laws.begin());
+}
+
+void CohesiveZone::Points::insert(const Topology& topology, const Insertion& insertion, Facet facet,
+                                  const Nodes& nodes) {
   bulk_count = topology.bulk_count();
   follow(insertion);
   const std::span<const Index> corners = topology.nodes(insertion.cohesive_element);
   const auto f = static_cast<Index>(facets.size());
-  Facet facet;
   facet.element = insertion.cohesive_element;
   facet.part = part_of_element[insertion.lower.element];
   facet.layer = layer_of_element.empty() ? 0 : layer_of_element[insertion.lower.element];
   facet.corners = static_cast<std::int32_t>(corners.size() / 2);
-  facet.law = law_of_part[facet.part];
-  facet.insertion_time = time;
-  facet.traction = open.traction;
-  if (facet.law < 0) {
-    throw Error(Status::bad_argument,
-                "element " + std::to_string(insertion.lower.element) +
-                    " belongs to a part without a cohesive law; its facets cannot open");
-  }
   const Index n = facet.corners;
   std::array<Vec3, 4> middle;
   for (Index c = 0; c < n; ++c) middle[c] = 0.5 * (nodes.x(corners[c]) + nodes.x(corners[c + n]));
@@ -181,16 +185,34 @@ void CohesiveZone::Points::insert(const Topology& topology, const Insertion& ins
     points.push_back(point);
   }
   turn(f, nodes);
-  const CohesiveLaw& law = law_of(f).given;
-  double strength = effective_traction(facet.traction, facets[f].normal, law.shear_ratio);
-  if (!(strength > 0)) strength = law.strength;
-  const double reach = 2 * law.fracture_energy / strength;
   for (Index c = 0; c < n; ++c) {
     Point& point = points[4 * static_cast<std::size_t>(f) + c];
-    point.strength = strength;
-    point.softening = {strength, reach};
+    give_law(point, facets[f]);
     clusters.add(4 * f + c, point.upper);
     if (point.exists()) revive(f);
+  }
+}
+
+/// An extrinsic law softens from the facet's traction down. An intrinsic one rises to its strength first.
+void CohesiveZone::Points::give_law(Point& point, const Facet& facet) {
+  const CohesiveLaw& law = laws[facet.law].given;
+  if (law.kind == CohesiveKind::bilinear) {
+    point.strength = law.strength;
+    const double reach = 2 * law.fracture_energy / law.strength;
+    const double start = law.strength / law.stiffness;
+    point.softening = {law.strength * reach / (reach - start), reach, start};
+    point.largest = start;
+    point.energy = 0.5 * point.softening.scale;
+    return;
+  }
+  point.strength = effective_traction(facet.traction, facet.normal, law.shear_ratio);
+  if (!(point.strength > 0)) point.strength = law.strength;
+  point.softening = {point.strength, 2 * law.fracture_energy / point.strength};
+  point.energy = 0.5 * point.strength;
+  if (law.kind == CohesiveKind::user) {
+    point.softening.scale = 0;
+    const Split carried(facet.traction, facet.normal);
+    point.user = users[facet.law].add(carried.t + std::max(carried.n, 0.0) * facet.normal);
   }
 }
 
@@ -235,8 +257,18 @@ void CohesiveZone::Points::start(Point& point, const Facet& facet, const Nodes& 
     return;
   }
   point.contact = kStiffness / yields;
+  const CohesiveKind kind = laws[facet.law].given.kind;
+  if (kind == CohesiveKind::bilinear) return;
+  if (kind == CohesiveKind::user) {
+    const double pressing = std::min(0.0, dot(facet.traction, facet.normal));
+    point.preload = (pressing / point.contact) * facet.normal;
+    point.pressed = 0.5 * pressing * pressing / point.contact;
+    point.heat = -point.pressed;
+    return;
+  }
   const double reach = point.softening.reach;
   point.largest = std::min(kRigidOpening * reach, point.strength / point.contact);
+  point.softening.start = point.largest;
   point.softening.reach = reach + point.largest;
   point.softening.scale = point.strength * point.softening.reach / reach;
   const Split carried(facet.traction, facet.normal);
@@ -306,8 +338,12 @@ void CohesiveZone::Points::load_point(const Clusters::Slot& slot, double step, C
   i.softening = point.softening;
   i.largest = point.largest;
   i.r0 = std::min(point.largest, law.weights.opening(from.n, from.t2()));
-  i.unloading = point.largest > 0 ? point.softening.stiffness(point.largest) : 0;
   i.area = point.area;
+  if (point.user == kNone) {
+    i.unloading = point.largest > 0 ? point.softening.stiffness(point.largest) : 0;
+  } else {
+    i.given = users[facet.law].traction(point.user);
+  }
   if (facet.broken) return;
   i.contact = point.contact;
   // The elastic slip stays in the face when it turns.
@@ -317,9 +353,8 @@ void CohesiveZone::Points::load_point(const Clusters::Slot& slot, double step, C
     i.slip = (length / norm(turned)) * turned;
   }
   if (law.given.friction > 0) {
-    const double damage = std::min(1.0, point.largest / point.softening.reach);
-    const double q = law.given.friction_exponent;
-    i.friction = law.given.friction * (q == 1 ? damage : 1 - std::pow(1 - damage, q));
+    i.friction = law.given.friction *
+                 friction_share(point.softening.damage(point.largest), law.given.friction_exponent);
   }
 }
 
@@ -334,7 +369,9 @@ void CohesiveZone::Points::solve_plain(const Clusters::Cluster& cluster, double 
     const Split at(p.now, i.normal);
     i.largest = std::max(i.largest, i.weights.opening(at.n, at.t2()));
     p.reaction = {};
-    if (i.largest == 0) {
+    if (points[slots[s].point].user != kNone) {
+      p.reaction.traction = i.given;
+    } else if (i.largest == 0) {
       p.reaction.traction = facets[slots[s].point / 4].traction;
     } else {
       const double k = i.softening.stiffness(i.largest);
@@ -361,6 +398,20 @@ void CohesiveZone::Points::solve_plain(const Clusters::Cluster& cluster, double 
   }
 }
 
+/// The largest opening so far; of a user's point the damage stands for it.
+double CohesiveZone::Points::opened_to(const Point& point, const Increment& i, const Split& at,
+                                       std::int32_t law) const {
+  if (point.user != kNone) return users[law].damage(point.user) * point.softening.reach;
+  return std::max(i.largest, i.weights.opening(at.n, at.t2()));
+}
+
+double CohesiveZone::Points::stored_in(const Point& point, const Increment& i, const Split& at,
+                                       std::int32_t law) const {
+  if (point.user != kNone) return users[law].stored(point.user);
+  if (!(point.largest > 0)) return 0;
+  return 0.5 * point.softening.stiffness(point.largest) * i.weights.quadratic(at.n, at.t2());
+}
+
 /// Forces into the nodes; the points' state and accounts at the half step ahead.
 void CohesiveZone::Points::store_cluster(const Clusters::Cluster& cluster, Nodes& nodes, double step,
                                          ClusterSolver& w) {
@@ -382,18 +433,17 @@ void CohesiveZone::Points::store_cluster(const Clusters::Cluster& cluster, Nodes
     const Split at(to, i.normal);
 
     const bool whole = !point.broken();
-    if (whole && i.weights.opening(at.n, at.t2()) > point.largest) {
+    if (whole && point.user == kNone && i.weights.opening(at.n, at.t2()) > point.largest) {
       point.growth += weighted_growth(i.weights, i.normal, from, to, point.largest, point.softening.reach);
     }
-    point.largest = std::max(i.largest, i.weights.opening(at.n, at.t2()));
+    point.largest = opened_to(point, i, at, facets[slots[s].point / 4].law);
     if (whole && point.broken()) w.broke.push_back(slots[s].point);
 
     if (i.contact > 0) point.contact = i.contact;
     const Reaction& reaction = p.reaction;
     const Vec3 closed_face = reaction.contact * i.normal + reaction.friction;
     point.work += dot(reaction.traction - closed_face, moved);
-    const double stiffness = point.largest > 0 ? point.softening.stiffness(point.largest) : 0.0;
-    point.stored = 0.5 * stiffness * i.weights.quadratic(at.n, at.t2());
+    point.stored = stored_in(point, i, at, facets[slots[s].point / 4].law);
     const double gap = std::min(at.n, 0.0);
     const double pressed = 0.5 * i.contact * (gap * gap + dot(reaction.slip, reaction.slip));
     point.heat += dot(closed_face, moved) - (pressed - point.pressed);
@@ -417,6 +467,7 @@ void CohesiveZone::Points::add_force(Nodes& nodes, double step, double time, con
                      [&](std::int64_t begin, std::int64_t end) {
                        for (std::int64_t k = begin; k < end; ++k) turn(live[k], nodes);
                      });
+  ask_users(nodes, step, time);
   const std::span<const Clusters::Cluster> all = clusters.all();
   threads.for_ranges(static_cast<std::int64_t>(all.size()), kGrain,
                      [&](std::int64_t begin, std::int64_t end) {
@@ -426,6 +477,25 @@ void CohesiveZone::Points::add_force(Nodes& nodes, double step, double time, con
                        }
                      });
   retire_broken(time);
+}
+
+/// Users' laws say their tractions at the openings of the step, in one call each.
+void CohesiveZone::Points::ask_users(const Nodes& nodes, double step, double time) {
+  std::vector<UserPoints::Question> questions;
+  for (std::size_t law = 0; law < laws.size(); ++law) {
+    if (laws[law].given.kind != CohesiveKind::user) continue;
+    questions.clear();
+    for (const Index f : live) {
+      if (facets[f].law != static_cast<std::int32_t>(law)) continue;
+      for (const Point& p : points_of(f)) {
+        if (!p.exists() || p.broken()) continue;
+        const double inertia = 1 / nodes.mass[p.upper] + 1 / nodes.mass[p.lower];
+        questions.push_back({p.user, nodes.x(p.upper) - nodes.x(p.lower), facets[f].normal,
+                             kUserStiffness / (0.5 * step * step * inertia * p.area), p.area});
+      }
+    }
+    users[law].ask(laws[law].given, time, step, questions);
+  }
 }
 
 /// Facets whose last point broke leave the step.
@@ -473,7 +543,8 @@ CohesiveZone::Energy CohesiveZone::Points::energy_of(Index facet) const {
     sum.stored += p.area * (p.stored + p.pressed - p.ahead);
     sum.dissipated += p.area * (p.work - p.stored);
     sum.friction += p.area * p.heat;
-    sum.ga += p.area * 0.5 * p.strength * p.growth;
+    // A user's law says by its work what it dissipates.
+    sum.ga += p.area * (p.user == kNone ? p.energy * p.growth : p.work - p.stored);
   }
   return sum;
 }
@@ -486,7 +557,24 @@ CohesiveZone& CohesiveZone::operator=(CohesiveZone&&) noexcept = default;
 
 void CohesiveZone::insert(const Topology& topology, const Insertion& insertion, const OpenFacet& facet,
                           const Nodes& nodes, double time) {
-  points_->insert(topology, insertion, facet, nodes, time);
+  Facet inserted;
+  inserted.law = points_->law_of_part[points_->part_of_element[insertion.lower.element]];
+  inserted.traction = facet.traction;
+  inserted.insertion_time = time;
+  if (inserted.law < 0) {
+    throw Error(Status::bad_argument,
+                "element " + std::to_string(insertion.lower.element) +
+                    " belongs to a part without a cohesive law; its facets cannot open");
+  }
+  points_->insert(topology, insertion, inserted, nodes);
+}
+
+void CohesiveZone::insert_bond(const Topology& topology, const Insertion& insertion, const std::string& law,
+                               const Nodes& nodes) {
+  Facet inserted;
+  inserted.law = points_->law_number(law);
+  inserted.bond = true;
+  points_->insert(topology, insertion, inserted, nodes);
 }
 
 void CohesiveZone::add_force(Nodes& nodes, double step, double time, const Threads& threads) {
@@ -515,7 +603,30 @@ CohesiveZone::Energy CohesiveZone::energy() const {
     sum.friction += e.friction;
     sum.ga += e.ga;
   }
+  for (const UserPoints& user : points_->users) sum.slope_cost += user.slope_cost();
   return sum;
+}
+
+double CohesiveZone::stiffness_over_mass(const Nodes& nodes) const {
+  // Gershgorin: the largest row sum of M^-1 K bounds omega^2 of the springs.
+  std::vector<std::pair<Index, double>> sums;
+  for (const Index f : points_->live) {
+    const CohesiveLaw& law = points_->laws[points_->facets[f].law].given;
+    if (law.kind != CohesiveKind::user) continue;
+    for (const Point& p : points_->points_of(f)) {
+      if (!p.exists() || p.broken()) continue;
+      for (const Index n : {p.upper, p.lower}) {
+        if (nodes.mass[n] > 0) sums.emplace_back(n, 2 * law.stiffness * p.area / nodes.mass[n]);
+      }
+    }
+  }
+  std::sort(sums.begin(), sums.end());
+  double largest = 0, sum = 0;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    sum = (i > 0 && sums[i].first == sums[i - 1].first ? sum : 0) + sums[i].second;
+    largest = std::max(largest, sum);
+  }
+  return largest;
 }
 
 std::vector<CrackFacet> CohesiveZone::facets(const Topology& topology) const {
@@ -537,10 +648,10 @@ std::vector<CrackFacet> CohesiveZone::facets(const Topology& topology) const {
     for (const Point& p : points_->points_of(f)) {
       if (!p.exists()) continue;
       ++existing;
-      damage += std::min(1.0, p.largest / p.softening.reach);
+      damage += p.softening.damage(p.largest);
     }
     crack.damage = facet.broken ? 1 : existing > 0 ? damage / existing : 0;
-    out.push_back(crack);
+    if (!facet.bond || crack.damage > 0) out.push_back(crack);
   }
   return out;
 }

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "cdfp/model.hpp"
@@ -31,6 +32,10 @@ class CohesiveZone {
   void insert(const Topology& topology, const Insertion& insertion, const OpenFacet& facet,
               const Nodes& nodes, double time);
 
+  /// The same for a facet that is bonded from the start by a law of its own and carries nothing yet.
+  void insert_bond(const Topology& topology, const Insertion& insertion, const std::string& law,
+                   const Nodes& nodes);
+
   /// Adds the cohesive (and closed-face contact and friction) forces at the node pairs to `nodes.force`,
   /// which holds all other forces of the step already, and advances the state. Velocities must change by
   /// `step * force / mass` afterwards. The same bits for any number of threads.
@@ -40,8 +45,8 @@ class CohesiveZone {
   /// Corners where the nodes are still one do not count.
   std::span<const Index> broken_now() const;
 
-  Index count() const;
-  Index broken_count() const;
+  Index count() const;         ///< bonds included
+  Index broken_count() const;  ///< bonds included
 
   /// J, at the time of the last `add_force`. `dissipated` is what the cohesive forces took from the nodes
   /// less what is stored; `ga` what the law says for the same openings: they agree as far as the time
@@ -51,11 +56,16 @@ class CohesiveZone {
     double stored = 0;
     double dissipated = 0;
     double friction = 0;
-    double ga = 0;  ///< sum over points of area * damage * mode-weighted fracture energy
+    double ga = 0;          ///< sum over points of area * damage * mode-weighted fracture energy
+    double slope_cost = 0;  ///< |work| by which users' laws missed their traction, too steep for the step
   };
   Energy energy() const;
 
-  /// For output, in the order of insertion.
+  /// Largest stiffness of users' laws at a node over its mass, 1/s2: for the stable step. The built-in laws
+  /// are solved for and bound no step.
+  double stiffness_over_mass(const Nodes& nodes) const;
+
+  /// For output, in the order of insertion. Bonds show once they are damaged.
   std::vector<CrackFacet> facets(const Topology& topology) const;
 
   /// What the solution of the node pairs cost, for benchmarks.

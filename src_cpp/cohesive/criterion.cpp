@@ -1,9 +1,9 @@
 #include "cohesive/criterion.hpp"
 
 #include <algorithm>
-#include <string>
+#include <cmath>
+#include <unordered_map>
 
-#include "cdfp/error.hpp"
 #include "cohesive/law.hpp"
 
 namespace cdfp {
@@ -24,65 +24,111 @@ double opening_traction(Vec3 traction, Vec3 normal, const CohesiveLaw& law) {
   return std::max(0.0, shear - law.internal_friction * pressure) / law.shear_ratio;
 }
 
+double norm_of(const Mat3& a) {
+  return std::sqrt(dot(a.r[0], a.r[0]) + dot(a.r[1], a.r[1]) + dot(a.r[2], a.r[2]));
+}
+
 }  // namespace
 
-Criterion::Criterion(const Model& model) : part_of_element_(model.mesh.parts) {
-  law_of_part_.resize(model.mesh.part_names.size());
-  for (const Part& part : model.parts) {
-    if (part.cohesive_law.empty()) continue;
-    const auto name = std::find(model.mesh.part_names.begin(), model.mesh.part_names.end(), part.name);
-    const auto law = std::find_if(model.cohesive_laws.begin(), model.cohesive_laws.end(),
-                                  [&](const CohesiveLaw& l) { return l.name == part.cohesive_law; });
-    if (name == model.mesh.part_names.end() || law == model.cohesive_laws.end()) {
-      throw Error(Status::bad_argument, "part '" + part.name + "' or its cohesive law '" + part.cohesive_law +
-                                            "' does not exist in the model");
-    }
-    law_of_part_[name - model.mesh.part_names.begin()] = *law;
+/// Each element's stress is asked for once.
+class Criterion::Stresses {
+ public:
+  explicit Stresses(const std::function<Mat3(Index)>& stress) : stress_(stress) {}
+  const Mat3& of(Index element) const {
+    const auto [place, is_new] = known_.try_emplace(element);
+    if (is_new) place->second = stress_(element);
+    return place->second;
   }
+
+ private:
+  const std::function<Mat3(Index)>& stress_;
+  mutable std::unordered_map<Index, Mat3> known_;
+};
+
+Criterion::Criterion(const Model& model) : strength_(model), recovery_(model.stress_recovery) {}
+
+std::vector<Index> Criterion::able_to_crack(std::span<const Index> candidates,
+                                            const Stresses& stresses) const {
+  std::vector<Index> able;
+  for (const Index e : candidates) {
+    const CohesiveLaw* law = strength_.law_of(e);
+    if (!law) continue;
+    // A little less, as a norm and a traction round differently.
+    const double least = (1 - 1e-12) * strength_.least_of_element(e) * std::min(1.0, law->shear_ratio);
+    if (norm_of(stresses.of(e)) >= least) able.push_back(e);
+  }
+  return able;
+}
+
+std::vector<Index> Criterion::with_neighbours(std::span<const Index> elements,
+                                              const Topology& topology) const {
+  std::vector<Index> all;
+  std::vector<VertexUse> around;
+  for (const Index e : elements) {
+    for (const Index node : topology.nodes(e)) {
+      topology.elements_around_node(node, around);
+      for (const VertexUse& use : around) {
+        if (use.element < topology.bulk_count()) all.push_back(use.element);
+      }
+    }
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+std::vector<Criterion::Side> Criterion::facets_of(std::span<const Index> elements,
+                                                  const Topology& topology) const {
+  std::vector<Side> sides;
+  for (const Index e : elements) {
+    if (!strength_.law_of(e)) continue;
+    for (Index f = 0; f < topology.facet_count(e); ++f) {
+      const FacetUse mate = topology.mate({e, f});
+      if (mate.element == kNone || mate.element >= topology.bulk_count()) continue;
+      if (strength_.part_of(mate.element) != strength_.part_of(e)) continue;
+      if (mate.element > e) {
+        sides.push_back({{e, f}, mate.element});
+      } else if (!std::binary_search(elements.begin(), elements.end(), mate.element)) {
+        sides.push_back({mate, e});
+      }
+    }
+  }
+  return sides;
+}
+
+/// Sums go over elements in the order of their numbers, whichever facet asks.
+Mat3 Criterion::nodal_stress(const FacetNodes& facet, Index part, const Topology& topology,
+                             const Stresses& stresses) const {
+  Mat3 sum;
+  std::vector<VertexUse> around;
+  for (const Index node : facet.view()) {
+    topology.elements_around_node(node, around);
+    std::erase_if(around, [&](const VertexUse& use) {
+      return use.element >= topology.bulk_count() || strength_.part_of(use.element) != part;
+    });
+    Mat3 at_node;
+    for (const VertexUse& use : around) at_node = at_node + stresses.of(use.element);
+    sum = sum + 1.0 / (static_cast<double>(around.size()) * facet.count) * at_node;
+  }
+  return sum;
 }
 
 void Criterion::find(std::span<const Index> candidates, const Topology& topology,
                      std::span<const double> position, const std::function<Mat3(Index)>& stress,
                      std::vector<OpenFacet>& open) const {
   open.clear();
-  struct Side {
-    FacetUse lower;
-    Index upper;
-  };
-  std::vector<Side> sides;
-  std::vector<Index> elements;
-  for (const Index e : candidates) {
-    const Index part = part_of_element_[e];
-    if (!(law_of_part_[part].strength > 0)) continue;
-    for (Index f = 0; f < topology.facet_count(e); ++f) {
-      const FacetUse mate = topology.mate({e, f});
-      if (mate.element == kNone || mate.element >= topology.bulk_count()) continue;
-      if (part_of_element_[mate.element] != part) continue;
-      if (mate.element > e) {
-        sides.push_back({{e, f}, mate.element});
-      } else if (!std::binary_search(candidates.begin(), candidates.end(), mate.element)) {
-        sides.push_back({mate, e});
-      } else {
-        continue;  // found from the other side
-      }
-      elements.push_back(e);
-      elements.push_back(mate.element);
-    }
-  }
-  std::sort(elements.begin(), elements.end());
-  elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
-  std::vector<Mat3> stresses;
-  stresses.reserve(elements.size());
-  for (const Index e : elements) stresses.push_back(stress(e));
-  const auto stress_of = [&](Index e) -> const Mat3& {
-    return stresses[std::lower_bound(elements.begin(), elements.end(), e) - elements.begin()];
-  };
-
-  for (const Side& side : sides) {
-    const CohesiveLaw& law = law_of_part_[part_of_element_[side.upper]];
-    const Vec3 normal = normalized(doubled_area(topology.facet_nodes(side.lower), position));
-    const Vec3 traction = 0.5 * (stress_of(side.lower.element) + stress_of(side.upper)) * normal;
-    if (opening_traction(traction, normal, law) >= law.strength) {
+  const Stresses stresses(stress);
+  std::vector<Index> elements = able_to_crack(candidates, stresses);
+  const bool nodal = recovery_ == StressRecovery::nodal;
+  if (nodal) elements = with_neighbours(elements, topology);
+  for (const Side& side : facets_of(elements, topology)) {
+    const CohesiveLaw& law = *strength_.law_of(side.upper);
+    const FacetNodes facet = topology.facet_nodes(side.lower);
+    const Vec3 normal = normalized(doubled_area(facet, position));
+    const Mat3 recovered = nodal ? nodal_stress(facet, strength_.part_of(side.upper), topology, stresses)
+                                 : 0.5 * (stresses.of(side.lower.element) + stresses.of(side.upper));
+    const Vec3 traction = recovered * normal;
+    if (opening_traction(traction, normal, law) >= strength_.of(side.lower, side.upper)) {
       open.push_back({side.lower, traction});
     }
   }

@@ -7,6 +7,7 @@
 
 #include "cdfp/model.hpp"
 #include "cdfp/topology.hpp"
+#include "cohesive/facet_strength.hpp"
 #include "core/vec3.hpp"
 
 namespace cdfp {
@@ -20,15 +21,30 @@ class Criterion {
  public:
   explicit Criterion(const Model& model);
 
-  /// Facets of `candidates` (ascending element numbers) that reach the strength, in ascending order of
-  /// `lower`. Only facets between two elements of one cracking part count. `stress(element)` gives the Cauchy
-  /// stress. Independent of the order in which facets are looked at.
+  /// Facets that reach their strength, in ascending order of `lower`. `candidates`: ascending numbers of all
+  /// elements whose stress could reach the strength of a facet near them on some plane; elements that cannot
+  /// reach that of their own facets are skipped by the norm of their stress. Only facets between two elements
+  /// of one cracking part count. `stress(element)` gives the Cauchy stress. Independent of the order in which
+  /// facets are looked at.
   void find(std::span<const Index> candidates, const Topology& topology, std::span<const double> position,
             const std::function<Mat3(Index)>& stress, std::vector<OpenFacet>& open) const;
 
+  const FacetStrength& strength() const { return strength_; }
+
  private:
-  std::vector<Index> part_of_element_;
-  std::vector<CohesiveLaw> law_of_part_;  ///< strength 0: the part does not crack
+  struct Side {
+    FacetUse lower;
+    Index upper;
+  };
+  class Stresses;
+  std::vector<Index> able_to_crack(std::span<const Index> candidates, const Stresses& stresses) const;
+  std::vector<Index> with_neighbours(std::span<const Index> elements, const Topology& topology) const;
+  std::vector<Side> facets_of(std::span<const Index> elements, const Topology& topology) const;
+  Mat3 nodal_stress(const FacetNodes& facet, Index part, const Topology& topology,
+                    const Stresses& stresses) const;
+
+  FacetStrength strength_;
+  StressRecovery recovery_;
 };
 
 }  // namespace cdfp

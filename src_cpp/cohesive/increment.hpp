@@ -45,6 +45,7 @@ struct Increment {
   double contact = 0;    ///< Pa/m, stiffness of the closed face; 0 leaves contact to others
   double friction = 0;   ///< Coulomb coefficient, scaled by eq. 31
   double area = 0;       ///< m2
+  Vec3 given;            ///< Pa, by a user's law: the same over the whole increment
   bool linear = false;   ///< stiffness and contact as `freeze` found them
   bool closed = false;   ///< as `freeze` found it
 
@@ -73,6 +74,7 @@ struct Increment {
   template <bool Sloped>
   Reaction at(Vec3 x) const {
     Reaction out;
+    out.traction = given;
     const Split to(x, normal);
     if (unloading > 0) add_cohesion<Sloped>(to, out);
     if (contact > 0 && (linear ? closed : (from_n < 0 || to.n < 0))) add_contact<Sloped>(to, out);
@@ -89,7 +91,7 @@ struct Increment {
     const bool loads = !linear && r > largest;
     const Softening::Mean k = loads ? softening.mean(largest, r0, r) : Softening::Mean{unloading, 0};
     const Vec3 path = opening.value * normal + (0.5 * weights.traction) * (from_t + to.t);
-    out.traction = k.value * path;
+    out.traction += k.value * path;
     if constexpr (Sloped)
       out.slope.add_axial(k.value * opening.slope, 0.5 * k.value * weights.traction, normal);
     if (loads) {

@@ -54,11 +54,20 @@ inline double effective_traction(Vec3 traction, Vec3 normal, double shear_ratio)
   return std::sqrt(p * p + split.t2() / (shear_ratio * shear_ratio));
 }
 
-/// The straight line down: T = scale (1 - D/reach) over D.
+/// f of eq. 31: the share of its friction that a closed face has at `damage`.
+inline double friction_share(double damage, double exponent) {
+  return exponent == 1 ? damage : 1 - std::pow(1 - damage, exponent);
+}
+
+/// The straight line down: T = scale (1 - D/reach) over D, from D = start.
 struct Softening {
   double scale = 0;  ///< Pa
   double reach = 0;  ///< m
+  double start = 0;  ///< m: up to here it is elastic
 
+  double damage(double largest) const {
+    return largest < reach ? std::max(0.0, (largest - start) / (reach - start)) : 1.0;
+  }
   double stiffness(double largest) const { return largest < reach ? scale * (1 / largest - 1 / reach) : 0.0; }
 
   struct Mean {

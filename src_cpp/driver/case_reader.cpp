@@ -95,6 +95,10 @@ void read_materials(TomlTable& top, Model& model) {
 }
 
 void read_cohesive_laws(TomlTable& top, Model& model) {
+  static constexpr std::pair<const char*, CohesiveKind> kinds[] = {
+      {"linear", CohesiveKind::linear},
+      {"camacho_ortiz", CohesiveKind::camacho_ortiz},
+      {"bilinear", CohesiveKind::bilinear}};
   for (auto& [name, t] : top.named_tables("cohesive_laws")) {
     CohesiveLaw law;
     law.name = name;
@@ -105,6 +109,12 @@ void read_cohesive_laws(TomlTable& top, Model& model) {
     t.read("friction", law.friction, kNotNegative);
     t.read("friction_exponent", law.friction_exponent, kPositive);
     t.read("internal_friction", law.internal_friction, kNotNegative);
+    t.choose<CohesiveKind>("kind", law.kind, kinds);
+    if (law.kind == CohesiveKind::bilinear) t.require("stiffness");
+    t.read("stiffness", law.stiffness, kPositive);
+    t.read("weibull_modulus", law.weibull_modulus, kPositive);
+    t.read("weibull_area", law.weibull_area, kPositive);
+    t.read("seed", law.seed);
     t.finish();
     model.cohesive_laws.push_back(std::move(law));
   }
@@ -138,6 +148,42 @@ void read_parts(TomlTable& top, Model& model) {
     }
     t.finish();
     model.parts.push_back(std::move(part));
+  }
+}
+
+void read_bonds(TomlTable& top, Model& model) {
+  for (TomlTable& t : top.table_array("bonds")) {
+    Bond bond;
+    t.need("cohesive_law", bond.cohesive_law);
+    t.check_name("cohesive_law", bond.cohesive_law, names_of(model.cohesive_laws), "cohesive law");
+    if (t.has("parts") == t.has("facet_set")) {
+      t.refuse("cohesive_law", "a bond takes either 'parts' (two names) or 'facet_set'");
+    }
+    std::vector<std::string> parts;
+    t.read("parts", parts);
+    if (t.has("parts")) {
+      if (parts.size() != 2) t.refuse("parts", "'parts' must name two parts");
+      for (const std::string& part : parts) t.check_name("parts", part, model.mesh.part_names, "part");
+      bond.parts = {parts[0], parts[1]};
+    }
+    t.read("facet_set", bond.facet_set);
+    if (t.has("facet_set")) {
+      t.check_name("facet_set", bond.facet_set, names_of(model.mesh.facet_sets), "facet set");
+    }
+    t.finish();
+    model.bonds.push_back(std::move(bond));
+  }
+}
+
+void read_fracture(TomlTable& top, Model& model) {
+  static constexpr std::pair<const char*, StressRecovery> recoveries[] = {
+      {"element_mean", StressRecovery::element_mean}, {"nodal", StressRecovery::nodal}};
+  top.choose<StressRecovery>("stress_recovery", model.stress_recovery, recoveries);
+  top.read("strength_shares", model.strength_shares, kPositive);
+  if (top.has("strength_shares") && model.strength_shares.size() != model.mesh.types.size()) {
+    top.refuse("strength_shares", "'strength_shares' has " + std::to_string(model.strength_shares.size()) +
+                                      " numbers; the mesh has " + std::to_string(model.mesh.types.size()) +
+                                      " elements");
   }
 }
 
@@ -194,6 +240,9 @@ void read_initial_velocities(TomlTable& top, Model& model) {
     InitialVelocity v;
     v.part = name;
     t.need("velocity", v.velocity);
+    std::optional<std::array<double, 9>> gradient;
+    t.read("gradient", gradient);
+    v.gradient = gradient.value_or(v.gradient);
     t.finish();
     model.initial_velocities.push_back(std::move(v));
   }
@@ -242,6 +291,8 @@ Model read_model(TomlTable& top) {
   read_materials(top, model);
   read_cohesive_laws(top, model);
   read_parts(top, model);
+  read_bonds(top, model);
+  read_fracture(top, model);
   read_rigid_bodies(top, model);
   read_symmetry_planes(top, model);
   read_prescribed_velocities(top, model);

@@ -101,6 +101,12 @@ std::span<const Index> ElementForce::critical_elements() const {
   return blocks_->critical;
 }
 
+void ElementForce::set_least_strength(Index part, double strength) {
+  for (BlockGroup& group : blocks_->groups) {
+    if (group.part == part && group.plan.cracks) cdfp::set_least_strength(group.plan, strength);
+  }
+}
+
 Mat3 ElementForce::stress(Index element, std::span<const double> position) const {
   const Blocks::Place& place = blocks_->places[element];
   if (place.group == kNone) return {};

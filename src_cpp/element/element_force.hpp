@@ -43,6 +43,10 @@ class ElementForce {
   /// whose traction is the mean of two elements' can only open if one of them is listed.
   std::span<const Index> critical_elements() const;
 
+  /// Lists elements of a cracking part from this strength on (Pa) instead of its law's, where facets are
+  /// weaker or stronger than that.
+  void set_least_strength(Index part, double strength);
+
   /// Mean Cauchy stress of an element at `position`, Pa, with the material state as it is.
   Mat3 stress(Index element, std::span<const double> position) const;
 

@@ -39,6 +39,12 @@ double critical_norm(double stress, double mu) {
 
 }  // namespace
 
+void set_least_strength(PartPlan& plan, double strength) {
+  const double stress = strength * std::min(1.0, plan.shear_ratio);
+  const double norm = plan.rate_dependent ? 0 : critical_norm(stress, plan.constants.material.mu);
+  plan.constants.critical_norm_squared = norm * norm;
+}
+
 std::optional<PartPlan> plan_part(const Model& model, const std::string& name) {
   const Part& part = named(model.parts, name, "part");
   const Material& material = named(model.materials, part.material, "material");
@@ -73,13 +79,12 @@ std::optional<PartPlan> plan_part(const Model& model, const std::string& name) {
   constants.shear_share = (1 - nu) / 2;
   constants.warping_share = (1 - nu * nu) / 3;
   plan.cracks = !part.cohesive_law.empty();
-  double norm = std::numeric_limits<double>::infinity();
+  constants.critical_norm_squared = std::numeric_limits<double>::infinity();
   if (plan.cracks) {
     const CohesiveLaw& law = named(model.cohesive_laws, part.cohesive_law, "cohesive law");
-    const double stress = law.strength * std::min(1.0, law.shear_ratio);
-    norm = plan.rate_dependent ? 0 : critical_norm(stress, constants.material.mu);
+    plan.shear_ratio = law.shear_ratio;
+    set_least_strength(plan, law.strength);
   }
-  constants.critical_norm_squared = norm * norm;
   return plan;
 }
 

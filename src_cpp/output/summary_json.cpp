@@ -71,6 +71,7 @@ std::string summary_json(const Summary& s) {
       {"cohesive_inserted", s.cohesive_inserted},
       {"cohesive_broken", s.cohesive_broken},
       {"cohesive_dissipated_over_GA", s.cohesive_dissipated_over_ga},
+      {"cohesive_slope_cost_j", s.cohesive_slope_cost_j},
       {"first_contact_s", s.first_contact_s},
       {"first_crack_upper_s", upper.time_s},
       {"first_crack_upper_layer_face", text_or_null(upper.layer_face)},

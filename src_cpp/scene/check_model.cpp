@@ -21,6 +21,11 @@ void require_positive(double value, const std::string& what) {
   require(std::isfinite(value) && value > 0, what + " is " + std::to_string(value) + "; it must be positive");
 }
 
+void require_not_negative(double value, const std::string& what) {
+  require(std::isfinite(value) && value >= 0,
+          what + " is " + std::to_string(value) + "; it must not be negative");
+}
+
 void require_finite(const std::array<double, 3>& value, const std::string& what) {
   for (const double v : value) require(std::isfinite(v), what + " is not a finite number");
 }
@@ -56,9 +61,66 @@ void check_law(const CohesiveLaw& law) {
   require_positive(law.fracture_energy, where + ": fracture_energy");
   require_positive(law.mode_ratio, where + ": mode_ratio");
   require_positive(law.shear_ratio, where + ": shear_ratio");
-  require(law.friction >= 0, where + ": friction must not be negative");
+  require_not_negative(law.friction, where + ": friction");
   require_positive(law.friction_exponent, where + ": friction_exponent");
-  require(law.internal_friction >= 0, where + ": internal_friction must not be negative");
+  require_not_negative(law.internal_friction, where + ": internal_friction");
+  require_not_negative(law.weibull_modulus, where + ": weibull_modulus");
+  require_not_negative(law.weibull_area, where + ": weibull_area");
+  require(law.weibull_area == 0 || law.weibull_modulus > 0,
+          where + ": weibull_area means nothing without scatter; give weibull_modulus or leave it out");
+  const bool user = law.kind == CohesiveKind::user;
+  const bool bilinear = law.kind == CohesiveKind::bilinear;
+  require(
+      law.kind != CohesiveKind::camacho_ortiz || law.mode_ratio == 1,
+      where + ": camacho_ortiz has a potential for mode_ratio 1 only; leave mode_ratio out or take linear");
+  if (user) require(law.callback != nullptr, where + ": a user law needs a callback");
+  require(user || (!law.callback && law.states == 0),
+          where + ": callback and states are of user laws only; set its kind to user");
+  require(law.states >= 0, where + ": states must not be negative");
+  if (bilinear) {
+    require_positive(law.stiffness, where + ": stiffness");
+    const double least = law.strength * law.strength / (2 * law.fracture_energy);
+    require(law.stiffness > least,
+            where + ": stiffness is " + std::to_string(law.stiffness) + " Pa/m; above " +
+                std::to_string(least) +
+                " (strength^2 / 2 fracture_energy) the bond softens after its strength");
+  } else {
+    require_not_negative(law.stiffness, where + ": stiffness");
+    require(
+        user || law.stiffness == 0,
+        where + ": stiffness is of bilinear and user laws only; an extrinsic law is rigid until it opens");
+  }
+}
+
+void check_bonds(const Model& model) {
+  for (const Bond& bond : model.bonds) {
+    const CohesiveLaw& law = cohesive_law(model, bond.cohesive_law);
+    require(law.kind == CohesiveKind::bilinear || law.kind == CohesiveKind::user,
+            "bond: cohesive law '" + law.name +
+                "' is extrinsic and starts at its strength; take a bilinear or "
+                "user law");
+    require(bond.facet_set.empty() != (bond.parts[0].empty() && bond.parts[1].empty()),
+            "bond: give either a facet set or two parts");
+    if (!bond.facet_set.empty()) {
+      facet_set(model.mesh, bond.facet_set);
+      continue;
+    }
+    for (const std::string& name : bond.parts) {
+      const Index part = part_number(model.mesh, name);
+      require(!is_rigid(model, *parts_in_order(model)[part]), "bond: part '" + name + "' is rigid");
+    }
+    require(bond.parts[0] != bond.parts[1], "bond: the two parts are the same, '" + bond.parts[0] + "'");
+  }
+}
+
+void check_strength_shares(const Model& model) {
+  if (model.strength_shares.empty()) return;
+  require(model.strength_shares.size() == model.mesh.types.size(),
+          "strength_shares has " + std::to_string(model.strength_shares.size()) +
+              " numbers; give one for each "
+              "of the " +
+              std::to_string(model.mesh.types.size()) + " elements, or none");
+  for (const double share : model.strength_shares) require_positive(share, "strength_shares: a share");
 }
 
 void check_parts(const Model& model) {
@@ -71,7 +133,9 @@ void check_parts(const Model& model) {
     require(rigid || !has_body,
             where + " has a rigid body but a deformable material; give it a rigid material");
     if (!part->cohesive_law.empty()) {
-      cohesive_law(model, part->cohesive_law);
+      require(cohesive_law(model, part->cohesive_law).kind != CohesiveKind::bilinear,
+              where + ": cohesive law '" + part->cohesive_law +
+                  "' is bilinear and stands from the start; use it in a bond, and an extrinsic law here");
       require(!rigid, where + " is rigid and cannot crack; leave its cohesive law out");
     }
     require(part->hourglass > 0, where + ": hourglass must be positive (1 is the assumed-strain stiffness)");
@@ -127,6 +191,8 @@ void check_motion(const Model& model) {
     require(!is_rigid(model, *parts_in_order(model)[part]),
             "initial velocity of '" + v.part + "': the part is rigid; give the velocity to its rigid body");
     require_finite(v.velocity, "initial velocity of '" + v.part + "'");
+    for (const double g : v.gradient)
+      require(std::isfinite(g), "initial velocity of '" + v.part + "': its gradient is not finite");
   }
   require_finite(model.gravity, "gravity");
 }
@@ -160,6 +226,8 @@ std::vector<std::string> check_model(const Model& model) {
   for (const CohesiveLaw& law : model.cohesive_laws) check_law(law);
   check_parts(model);
   check_rigid_nodes(model);
+  check_bonds(model);
+  check_strength_shares(model);
   check_motion(model);
   check_settings(model);
   return warnings;

@@ -71,13 +71,13 @@ static void models(void) {
           "'times' is null with 2 values");
   REFUSED(cdfp_model_add_prescribed_velocity(model, "set", NULL, 1, NULL, v), CDFP_BAD_ARGUMENT,
           "'directions' is null");
-  REFUSED(cdfp_model_add_initial_velocity(model, "part", NULL), CDFP_BAD_ARGUMENT, "'velocity' is null");
+  REFUSED(cdfp_model_add_initial_velocity(model, "part", NULL, NULL), CDFP_BAD_ARGUMENT, "'velocity' is null");
   REFUSED(cdfp_model_set_contact(model, NULL), CDFP_BAD_ARGUMENT, "'settings' is null");
   DONE(cdfp_model_free(&model));
 
   model = two_cubes();
   REFUSED(cdfp_simulation_create(model, NULL), CDFP_BAD_ARGUMENT, "'simulation' is null");
-  DONE(cdfp_model_add_initial_velocity(model, "cube", v));
+  DONE(cdfp_model_add_initial_velocity(model, "cube", v, NULL));
   REFUSED(cdfp_simulation_create(model, &simulation), CDFP_BAD_ARGUMENT, "there is no part 'cube'");
   CHECK(simulation == NULL);
   DONE(cdfp_model_free(&model));

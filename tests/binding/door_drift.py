@@ -16,6 +16,7 @@ NUMBERS = {"int": "int32_t", "long": "int64_t", "long int": "int64_t", "long lon
 def declarations(text):
     """Structs and functions of C text: {name: [(type, name), ...]}."""
     text = re.sub(r"/\*.*?\*/|//[^\n]*", " ", text, flags=re.S)
+    text = re.sub(r"int \(\*(\w+)\)\(\)", r"void \1", text)  # how the compiler writes a c_funptr
     structs = {}
     for name, body in re.findall(r"typedef struct (\w+) \{(.*?)\}", text, flags=re.S):
         structs[name] = [member(m) for m in body.split(";") if m.strip()]
@@ -36,7 +37,7 @@ def member(text):
 
 
 def as_fortran_sees_it(kind, structs):
-    """Handles and views are c_ptr in Fortran: one star by value, two by reference."""
+    """Handles and views are c_ptr in Fortran: one star by value, two by reference; callbacks are c_funptr."""
     bare = kind.replace("const ", "").replace("*", "")
     opaque = bare == "void" or (bare.startswith("cdfp_") and bare not in structs)
     if opaque or kind.count("*") == 2:
@@ -73,7 +74,8 @@ def differences(header, source, compiler):
     faults = []
 
     for name in sorted(structs.keys() | fortran_structs.keys()):
-        if structs.get(name) != fortran_structs.get(name):
+        views = [("void*" if "*" in kind else kind, member) for kind, member in structs.get(name, [])]
+        if views != fortran_structs.get(name):
             faults.append(f"struct {name}: C {structs.get(name)}, Fortran {fortran_structs.get(name)}")
     for name in sorted(functions.keys() | fortran_functions.keys()):
         if name not in functions or name not in fortran_functions:

@@ -85,16 +85,49 @@ TEST_F(Fields, PartsAndCohesiveLaws) {
     EXPECT_EQ(formulation, Formulation::full);
     EXPECT_EQ(hourglass, 0.5);
   }
-  const cdfp_cohesive_law given = {1, 2, 3, 4, 5, 6, 7};
+  const cdfp_cohesive_law given = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, CDFP_USER};
   ASSERT_EQ(cdfp_model_add_cohesive_law(handle_, "law", &given), CDFP_OK);
   {
     const auto& [name, strength, fracture_energy, mode_ratio, shear_ratio, friction, friction_exponent,
-                 internal_friction] = model().cohesive_laws.at(0);
+                 internal_friction, kind, stiffness, weibull_modulus, weibull_area, seed, states, callback] =
+        model().cohesive_laws.at(0);
+    EXPECT_EQ(kind, CohesiveKind::user);
+    EXPECT_EQ((Vector{stiffness, weibull_modulus, weibull_area}), (Vector{8, 9, 10}));
+    EXPECT_EQ(seed, 11);
+    EXPECT_EQ(states, 0);
+    EXPECT_FALSE(callback);
     EXPECT_EQ(name, "law");
     EXPECT_EQ((Vector{strength, fracture_energy, mode_ratio}), (Vector{1, 2, 3}));
     EXPECT_EQ((Vector{shear_ratio, friction, friction_exponent}), (Vector{4, 5, 6}));
     EXPECT_EQ(internal_friction, 7);
   }
+  int asked = 0;
+  const auto law = [](const cdfp_cohesive_points* points, void* user_data) {
+    *static_cast<int*>(user_data) = static_cast<int>(points->count);
+    points->damage[0] = points->opening[0] + points->normal[0] + points->insertion_traction[0] +
+                        points->state[0] + points->traction[0] + points->stored[0] + points->time +
+                        points->step;
+  };
+  ASSERT_EQ(cdfp_model_set_cohesive_callback(handle_, "law", law, 5, &asked), CDFP_OK);
+  EXPECT_EQ(model().cohesive_laws.at(0).states, 5);
+  double one[] = {1}, two[] = {2}, four[] = {4}, eight[] = {8}, sixteen[] = {16}, more[] = {32},
+         damage[] = {0};
+  model().cohesive_laws.at(0).callback({7, 64, 128, one, two, four, eight, sixteen, more, damage});
+  EXPECT_EQ(asked, 7);
+  EXPECT_EQ(damage[0], 255);
+  EXPECT_EQ(cdfp_model_set_cohesive_callback(handle_, "other", law, 5, &asked), CDFP_BAD_ARGUMENT);
+
+  ASSERT_EQ(cdfp_model_add_bond(handle_, "glass", "pvb", "law"), CDFP_OK);
+  ASSERT_EQ(cdfp_model_add_bonded_facets(handle_, "faces", "law"), CDFP_OK);
+  EXPECT_EQ(model().bonds.at(0).parts, (std::array<std::string, 2>{"glass", "pvb"}));
+  EXPECT_EQ(model().bonds.at(0).cohesive_law + model().bonds.at(0).facet_set, "law");
+  EXPECT_EQ(model().bonds.at(1).facet_set + model().bonds.at(1).cohesive_law, "faceslaw");
+  ASSERT_EQ(cdfp_model_set_stress_recovery(handle_, CDFP_NODAL), CDFP_OK);
+  EXPECT_EQ(model().stress_recovery, StressRecovery::nodal);
+  EXPECT_EQ(cdfp_model_set_stress_recovery(handle_, 2), CDFP_BAD_ARGUMENT);
+  ASSERT_EQ(cdfp_model_set_strength_shares(handle_, 1, two), CDFP_OK);
+  EXPECT_EQ(model().strength_shares, std::vector<double>{2});
+
   cdfp_cohesive_law standard = {};
   ASSERT_EQ(cdfp_cohesive_law_default(&standard), CDFP_OK);
   EXPECT_EQ((Vector{standard.mode_ratio, standard.shear_ratio, standard.friction_exponent}),
@@ -109,7 +142,7 @@ TEST_F(Fields, Motion) {
             CDFP_OK);
   ASSERT_EQ(cdfp_model_add_symmetry_plane(handle_, 2, 7), CDFP_OK);
   ASSERT_EQ(cdfp_model_add_prescribed_velocity(handle_, "nodes", z, 2, times, v), CDFP_OK);
-  ASSERT_EQ(cdfp_model_add_initial_velocity(handle_, "part", w), CDFP_OK);
+  ASSERT_EQ(cdfp_model_add_initial_velocity(handle_, "part", w, inertia), CDFP_OK);
   {
     const auto& [part, mass, moments, velocity, angular_velocity, translation_fixed, rotation_fixed] =
         model().rigid_bodies.at(0);
@@ -137,7 +170,8 @@ TEST_F(Fields, Motion) {
     EXPECT_EQ(values, (std::vector<double>{1, 2}));
   }
   {
-    const auto& [part, velocity] = model().initial_velocities.at(0);
+    const auto& [part, velocity, gradient] = model().initial_velocities.at(0);
+    EXPECT_EQ(gradient, (std::array<double, 9>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
     EXPECT_EQ(part, "part");
     EXPECT_EQ(velocity, (Vector{4, 5, 6}));
   }
@@ -162,8 +196,8 @@ TEST_F(Fields, Settings) {
   ASSERT_EQ(cdfp_model_set_history_interval(handle_, 9), CDFP_OK);
   ASSERT_EQ(cdfp_model_set_threads(handle_, 10), CDFP_OK);
 
-  const auto& [title, mesh, materials, parts, laws, bodies, planes, prescribed, initial, gravity, contact,
-               time, output, threads] = model();
+  const auto& [title, mesh, materials, parts, laws, bonds, recovery, shares, bodies, planes, prescribed,
+               initial, gravity, contact, time, output, threads] = model();
   EXPECT_EQ(title, "title");
   EXPECT_EQ(gravity, (Vector{1, 2, 3}));
   EXPECT_EQ(threads, 10);
@@ -226,7 +260,7 @@ void fill_scene(cdfp_model* model) {
   cdfp_model_add_contact_surface(model, "faces");
   cdfp_model_add_elastic_material(model, "soft", 1000, 1e6, 0.3);
   cdfp_model_add_rigid_material(model, "hard", 1000, 1e6, 0.3);
-  const cdfp_cohesive_law law = {1e9, 10, 1, 1, 0, 1, 0};
+  const cdfp_cohesive_law law = {1e9, 10, 1, 1, 0, 1, 0, 0, 0, 0, 0, CDFP_LINEAR};
   cdfp_model_add_cohesive_law(model, "law", &law);
   cdfp_model_add_part(model, "cube", "soft", CDFP_ONE_POINT, 1, "law");
   cdfp_model_add_part(model, "hammer", "hard", CDFP_ONE_POINT, 1, nullptr);

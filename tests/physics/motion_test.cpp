@@ -26,7 +26,7 @@ TEST(Motion, FreeFallIsTheParabola) {
   scenes::add_box(model.mesh, "block", {3, 2, 2}, {3e-3, 2e-3, 2e-3});
   model = scenes::with_part(std::move(model), "block", kGlass);
   model.gravity = {0, 0, -9.81};
-  model.initial_velocities = {{"block", {1, 0, 2}}};
+  model.initial_velocities = {{"block", {1, 0, 2}, {}}};
   model.time = {1e-4, 5e-8, 0.9};
   Simulation s(std::move(model));
   const std::vector<double> start(s.positions().begin(), s.positions().end());
@@ -77,7 +77,7 @@ TEST(Motion, EqualBarsSwapVelocities) {
   const ElasticMaterial bar{2456, 74e9, 0};
   model = scenes::with_part(std::move(model), "left", bar);
   model = scenes::with_part(std::move(model), "right", bar);
-  model.initial_velocities = {{"left", {3, 0, 0}}};
+  model.initial_velocities = {{"left", {3, 0, 0}, {}}};
   model.contact.surfaces = {"left_faces", "right_faces"};
   model.time = {40e-6, 0, 0.8};
   Simulation s(std::move(model));

@@ -102,6 +102,7 @@ class SpringBody {
       criterion.find(
           cracking, topology, nodes.position, [this](Index e) { return stress(e); }, open);
       std::erase_if(open, [this](const OpenFacet& f) { return accept && !accept(f); });
+      if (reversed) std::reverse(open.begin(), open.end());
       for (const OpenFacet& facet : open) insert(facet);
     }
     if (load) load(nodes);
@@ -207,6 +208,7 @@ class SpringBody {
   std::vector<OpenFacet> open;
   std::vector<Index> all;                        ///< elements
   std::function<bool(const OpenFacet&)> accept;  ///< facets that may open; all if empty
+  bool reversed = false;  ///< facets of one step are inserted from the last to the first
 
  private:
   std::array<Vec3, 8> corner_;

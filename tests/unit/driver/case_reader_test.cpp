@@ -114,6 +114,10 @@ void expect_refused(const std::string& text, const std::string& message) {
   }
 }
 
+std::size_t glass_law_of(const Model& m) {
+  return m.cohesive_laws[0].name == "glass" ? 0 : 1;
+}
+
 TEST(CaseReader, ReadsEverySection) {
   const Model m = parse_case(kCase, "plate.toml");
   EXPECT_EQ(m.title, "small plate");
@@ -131,6 +135,7 @@ TEST(CaseReader, ReadsEverySection) {
   EXPECT_EQ(pvb.smoothing_time, 1e-6);
   EXPECT_EQ(std::get<RigidMaterial>(m.materials[2].law).density, 7850);
   ASSERT_EQ(m.cohesive_laws.size(), 1u);
+  EXPECT_EQ(m.cohesive_laws[0].kind, CohesiveKind::linear);
   EXPECT_EQ(m.cohesive_laws[0].strength, 60e6);
   EXPECT_EQ(m.cohesive_laws[0].fracture_energy, 10);
   EXPECT_EQ(m.cohesive_laws[0].mode_ratio, 5);
@@ -162,6 +167,41 @@ TEST(CaseReader, ReadsEverySection) {
   EXPECT_NO_THROW(check_model(m));
 }
 
+TEST(CaseReader, ReadsBondsScatterAndRecovery) {
+  const std::string bond =
+      "[cohesive_laws.bond]\nkind = \"bilinear\"\nstrength = 8e6\nfracture_energy = 200\nstiffness = 1e13\n"
+      "[[bonds]]\nparts = [\"pvb\", \"lower_glass\"]\ncohesive_law = \"bond\"\n"
+      "[[bonds]]\nfacet_set = \"support_top\"\ncohesive_law = \"bond\"\n[contact]";
+  std::string text = with("[contact]", bond);
+  text.replace(text.find("mode_ratio = 5"), 14,
+               "kind = \"camacho_ortiz\"\nweibull_modulus = 7\nweibull_area = 1e-6\nseed = 3");
+  text.insert(0, "stress_recovery = \"nodal\"\n");
+  const Model m = parse_case(text, "plate.toml");
+  ASSERT_EQ(m.cohesive_laws.size(), 2u);
+  const CohesiveLaw& glass = m.cohesive_laws[glass_law_of(m)];
+  EXPECT_EQ(glass.kind, CohesiveKind::camacho_ortiz);
+  EXPECT_EQ(glass.weibull_modulus, 7);
+  EXPECT_EQ(glass.weibull_area, 1e-6);
+  EXPECT_EQ(glass.seed, 3);
+  const CohesiveLaw& law = m.cohesive_laws[1 - glass_law_of(m)];
+  EXPECT_EQ(law.kind, CohesiveKind::bilinear);
+  EXPECT_EQ(law.stiffness, 1e13);
+  ASSERT_EQ(m.bonds.size(), 2u);
+  EXPECT_EQ(m.bonds[0].parts, (std::array<std::string, 2>{"pvb", "lower_glass"}));
+  EXPECT_EQ(m.bonds[1].facet_set, "support_top");
+  EXPECT_EQ(m.bonds[1].cohesive_law, "bond");
+  EXPECT_EQ(m.stress_recovery, StressRecovery::nodal);
+
+  expect_refused(with("[contact]", "[[bonds]]\ncohesive_law = \"glass\"\n[contact]"),
+                 "a bond takes either 'parts' (two names) or 'facet_set'");
+  expect_refused(with("[contact]", "[[bonds]]\nparts = [\"pvb\"]\ncohesive_law = \"glass\"\n[contact]"),
+                 "'parts' must name two parts");
+  expect_refused(with("mode_ratio = 5", "kind = \"bilinear\""), "the key 'stiffness' is missing");
+  expect_refused(with("mode_ratio = 5", "kind = \"linnear\""), "'linear'");
+  expect_refused(with("gravity", "strength_shares = [1.0, 0.5]\ngravity"),
+                 "'strength_shares' has 2 numbers; the mesh has 2358 elements");
+}
+
 TEST(CaseReader, NamesUnknownKeysWithPlaceAndNearestKey) {
   expect_refused(with("density = 2500", "densty = 2500"),
                  "plate.toml:12:1: unknown key 'densty' in [materials.glass]; did you mean 'density'?");
@@ -171,7 +211,7 @@ TEST(CaseReader, NamesUnknownKeysWithPlaceAndNearestKey) {
                  "unknown key 'kontact' at the top of the file; did you mean 'contact'?");
   expect_refused(with("gravity", "weather"),
                  "plate.toml:2:1: unknown key 'weather' at the top of the file; the keys are "
-                 "'cohesive_laws', 'contact', ");
+                 "'bonds', 'cohesive_laws', 'contact', ");
   expect_refused(with("strength = 60e6", "strength = 60e6\nstatic_modulus = 1.0"),
                  "unknown key 'static_modulus' in [cohesive_laws.glass]");
 }
