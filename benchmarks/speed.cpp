@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "cdfp/laminated_plate.hpp"
 #include "cdfp/simulation.hpp"
 #include "driver/case_reader.hpp"
 #include "element/element_force.hpp"
@@ -28,7 +29,6 @@
 #include "integrator/central_difference.hpp"
 #include "material/elastic.hpp"
 #include "material/rate_dependent.hpp"
-#include "mesh/laminated_plate.hpp"
 #include "support/counted.hpp"
 #include "support/roofline.hpp"
 

@@ -14,9 +14,9 @@
 #include "cdfp/error.hpp"
 #include "cdfp/mesh.hpp"
 #include "cdfp/model.hpp"
+#include "cdfp/recorder.hpp"
 #include "cdfp/simulation.hpp"
 #include "cdfp/topology.hpp"
-#include "output/recorder.hpp"
 
 namespace cdfp::gate {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "c_gate.hpp"
-#include "mesh/laminated_plate.hpp"
+#include "cdfp/laminated_plate.hpp"
 
 using namespace cdfp;
 using namespace cdfp::gate;

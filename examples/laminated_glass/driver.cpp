@@ -12,9 +12,9 @@
 #include <string>
 
 #include "cdfp/error.hpp"
+#include "cdfp/laminated_plate.hpp"
+#include "cdfp/recorder.hpp"
 #include "cdfp/simulation.hpp"
-#include "mesh/laminated_plate.hpp"
-#include "output/recorder.hpp"
 
 namespace {
 

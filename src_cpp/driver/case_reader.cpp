@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cdfp/error.hpp"
+#include "cdfp/laminated_plate.hpp"
 #include "driver/toml_table.hpp"
-#include "mesh/laminated_plate.hpp"
 
 namespace cdfp {
 

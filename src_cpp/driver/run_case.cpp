@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "cdfp/recorder.hpp"
 #include "cdfp/simulation.hpp"
 #include "driver/interrupt.hpp"
 #include "driver/progress.hpp"
 #include "driver/summary_table.hpp"
-#include "output/recorder.hpp"
 
 namespace cdfp {
 

@@ -1,7 +1,7 @@
 /// Layouts of the plate's columns on the unit square, impact point at the origin.
 #pragma once
 
-#include "mesh/laminated_plate.hpp"
+#include "cdfp/laminated_plate.hpp"
 #include "mesh/quad_mesh.hpp"
 
 namespace cdfp {

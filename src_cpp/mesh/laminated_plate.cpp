@@ -1,4 +1,4 @@
-#include "mesh/laminated_plate.hpp"
+#include "cdfp/laminated_plate.hpp"
 
 #include <cmath>
 #include <vector>

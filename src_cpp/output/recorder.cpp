@@ -1,4 +1,4 @@
-#include "output/recorder.hpp"
+#include "cdfp/recorder.hpp"
 
 #include <filesystem>
 #include <system_error>

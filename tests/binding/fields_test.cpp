@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "../../fortran_api/c_gate.hpp"
-#include "mesh/laminated_plate.hpp"
+#include "cdfp/laminated_plate.hpp"
 
 using namespace cdfp;
 

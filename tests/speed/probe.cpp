@@ -5,10 +5,10 @@
 #include <random>
 #include <string>
 
+#include "cdfp/laminated_plate.hpp"
 #include "cdfp/simulation.hpp"
 #include "element/element_force.hpp"
 #include "integrator/central_difference.hpp"
-#include "mesh/laminated_plate.hpp"
 
 namespace {
 

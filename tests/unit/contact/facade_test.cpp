@@ -5,8 +5,8 @@
 #include <random>
 
 #include "cdfp/error.hpp"
+#include "cdfp/laminated_plate.hpp"
 #include "contact/contact.hpp"
-#include "mesh/laminated_plate.hpp"
 
 namespace {
 

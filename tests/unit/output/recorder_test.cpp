@@ -1,4 +1,4 @@
-#include "output/recorder.hpp"
+#include "cdfp/recorder.hpp"
 
 #include <gtest/gtest.h>
 #include <signal.h>
