@@ -30,6 +30,7 @@
 #include "material/elastic.hpp"
 #include "material/rate_dependent.hpp"
 #include "support/counted.hpp"
+#include "support/plate.hpp"
 #include "support/roofline.hpp"
 
 namespace {
@@ -43,8 +44,6 @@ double seconds_since(Clock::time_point begin) {
 
 // ---- elements
 // ----------------------------------------------------------------------------------------------
-
-enum class Shape { extruded, distorted, tetrahedra };
 
 struct Work {
   double operations, bytes;
@@ -75,73 +74,12 @@ Work work_of_update() {
 
 struct Scene {
   const char* name;
-  Shape shape;
+  bench::Shape shape;
   Formulation formulation;
   bool rate_dependent;
   Work work;
   double wanted[2];  ///< M/s on one and two threads; 0: nothing is
 };
-
-Model plate(const Scene& scene, Index columns) {
-  constexpr Index kLayers = 4;
-  const Index side = columns + 1;
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> shift(-0.15e-3, 0.15e-3);
-  Model model;
-  Mesh& mesh = model.mesh;
-  std::vector<double> columns_at(2 * std::size_t(side) * std::size_t(side));
-  for (double& c : columns_at) c = shift(random);
-  for (Index k = 0; k <= kLayers; ++k) {
-    for (Index j = 0; j < side; ++j) {
-      for (Index i = 0; i < side; ++i) {
-        const std::size_t column = 2 * std::size_t(i + side * j);
-        const double own = scene.shape == Shape::distorted ? shift(random) : 0;
-        mesh.coordinates.insert(
-            mesh.coordinates.end(),
-            {1.1e-3 * i + columns_at[column], 1.1e-3 * j + columns_at[column + 1], 0.83e-3 * k + own});
-      }
-    }
-  }
-  const auto node = [&](Index i, Index j, Index k) { return i + side * (j + side * k); };
-  for (Index k = 0; k < kLayers; ++k) {
-    for (Index j = 0; j < columns; ++j) {
-      for (Index i = 0; i < columns; ++i) {
-        for (Index up = k; up < k + 2; ++up) {
-          mesh.connectivity.insert(mesh.connectivity.end(), {node(i, j, up), node(i + 1, j, up),
-                                                             node(i + 1, j + 1, up), node(i, j + 1, up)});
-        }
-      }
-    }
-  }
-  auto elements = std::size_t(kLayers) * std::size_t(columns) * std::size_t(columns);
-  mesh.types.assign(elements, ElementType::hexahedron);
-  if (scene.shape == Shape::tetrahedra) {
-    static constexpr int kCut[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
-                                       {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
-    std::vector<Index> cut;
-    for (std::size_t e = 0; e < elements; ++e) {
-      for (const auto& corners : kCut) {
-        for (const int c : corners) cut.push_back(mesh.connectivity[8 * e + std::size_t(c)]);
-      }
-    }
-    mesh.connectivity = std::move(cut);
-    elements *= 6;
-    mesh.types.assign(elements, ElementType::tetrahedron);
-  }
-  mesh.parts.assign(elements, 0);
-  mesh.part_names = {"plate"};
-  if (scene.rate_dependent) {
-    model.materials.push_back({"law", RateDependentMaterial{1000, 0.49, 5.88e6, 29.21e6, 0.176, 1e-6}});
-  } else {
-    model.materials.push_back({"law", ElasticMaterial{2500, 74e9, 0.2}});
-  }
-  Part part;
-  part.name = "plate";
-  part.material = "law";
-  part.formulation = scene.formulation;
-  model.parts.push_back(part);
-  return model;
-}
 
 /// A plate whose nodes start with random velocities: each step moves them, sums the forces and accelerates.
 class MovingPlate {
@@ -232,43 +170,43 @@ std::vector<double> measure_elements(const std::vector<bench::Roofline>& machine
                                      Results& results) {
   using namespace host;
   const Scene scenes[] = {{"one point, extruded",
-                           Shape::extruded,
+                           bench::Shape::extruded,
                            Formulation::one_point,
                            false,
                            work_of_update<OnePoint<Prism>, Elastic>(),
                            {14, 26}},
                           {"one point, distorted",
-                           Shape::distorted,
+                           bench::Shape::distorted,
                            Formulation::one_point,
                            false,
                            work_of_update<OnePoint<Hexahedron>, Elastic>(),
                            {14, 26}},
                           {"one point, PVB",
-                           Shape::extruded,
+                           bench::Shape::extruded,
                            Formulation::one_point,
                            true,
                            work_of_update<OnePoint<Prism>, RateDependent>(),
                            {0, 0}},
                           {"full, extruded",
-                           Shape::extruded,
+                           bench::Shape::extruded,
                            Formulation::full,
                            false,
                            work_of_update<FullIntegration<PrismPoints>, Elastic>(),
                            {3, 5.5}},
                           {"full, distorted",
-                           Shape::distorted,
+                           bench::Shape::distorted,
                            Formulation::full,
                            false,
                            work_of_update<FullIntegration<HexahedronPoints>, Elastic>(),
                            {3, 5.5}},
                           {"full, PVB",
-                           Shape::extruded,
+                           bench::Shape::extruded,
                            Formulation::full,
                            true,
                            work_of_update<FullIntegration<PrismPoints>, RateDependent>(),
                            {0, 0}},
                           {"tetrahedron",
-                           Shape::tetrahedra,
+                           bench::Shape::tetrahedra,
                            Formulation::one_point,
                            false,
                            work_of_update<Tetrahedron, Elastic>(),
@@ -282,7 +220,8 @@ std::vector<double> measure_elements(const std::vector<bench::Roofline>& machine
   for (const Scene& scene : scenes) {
     for (const Index columns : {108, 188, 500}) {
       if (columns > 200 && !large) continue;
-      const Model model = plate(scene, scene.shape == Shape::tetrahedra ? columns * 2 / 5 : columns);
+      const Model model = bench::plate(scene.shape, scene.formulation, scene.rate_dependent,
+                                       scene.shape == bench::Shape::tetrahedra ? columns * 2 / 5 : columns);
       const Index count = model.mesh.element_count();
       MovingPlate moving(model);
       const std::vector<int> counts = thread_counts();
