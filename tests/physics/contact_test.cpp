@@ -9,6 +9,7 @@
 #include "blocks/blocks.hpp"
 #include "cdfp/simulation.hpp"
 #include "core/vec3.hpp"
+#include "hertz.hpp"
 #include "scenes.hpp"
 
 namespace cdfp {
@@ -168,6 +169,17 @@ TEST(Blocks, HeapKeepsMomentumAndEnergy) {
   EXPECT_LT(summary.energy_balance_max, 1.01);
   EXPECT_GE(summary.contact_pairs.size(), 6u) << "the hit goes through the heap";
   EXPECT_LT(summary.deepest_penetration_m, 0.05 * 4e-3 / 3);
+}
+
+TEST(Hertz, ForceAndTimeOfABallOnGlass) {
+  // Three elements along the contact radius; benchmarks/hertz.cpp goes on to finer meshes and other speeds.
+  const hertz::Exact exact = hertz::exact_values(3);
+  EXPECT_NEAR(exact.force, 4960.9, 0.5);
+  EXPECT_NEAR(exact.time, 73.16e-6, 0.02e-6);
+  const hertz::Result impact = hertz::impact(3, 3);
+  EXPECT_NEAR(impact.force, exact.force, 0.05 * exact.force);
+  EXPECT_NEAR(impact.time, exact.time, 0.05 * exact.time);
+  EXPECT_NEAR(impact.balance, 1, 0.01);
 }
 
 /// On a floor that is held, under gravity; deformable, laid down with its weight on the springs.
