@@ -257,8 +257,19 @@ void spall() {
   const double v = peak / (rho * c);
   model.prescribed_velocities = {{"left", {true, false, false}, {0, rise, rise + pulse}, {0, v, 0}}};
   model.time.end = bar.width / c + 1.2 * (rise + pulse);
+  const auto end_node = static_cast<std::size_t>(model.mesh.node_sets[2].nodes.front());
   Simulation s(std::move(model));
-  s.advance(1000000);
+  Chart picture;
+  picture.title = "Free end of the bar that spalls";
+  picture.x_title = "time in us";
+  picture.y_title = "velocity in m/s";
+  Series velocity{"free end", {}, line_colour(0)};
+  while (s.advance(5) > 0) {
+    picture.x.push_back(1e6 * s.time());
+    velocity.y.push_back(s.velocities()[3 * end_node]);
+  }
+  picture.series = {velocity};
+  chart("spall", picture);
   const Summary summary = s.summary();
   double spalled = 0, first = 1;
   for (const CrackLine& crack : cracks_of(s)) {

@@ -631,7 +631,8 @@ double CohesiveZone::stiffness_over_mass(const Nodes& nodes) const {
     sum = (i > 0 && sums[i].first == sums[i - 1].first ? sum : 0) + sums[i].second;
     largest = std::max(largest, sum);
   }
-  return largest;
+  // At 2 / sqrt of this, `kUserStiffness` bounds no slope.
+  return 2 / kUserStiffness * largest;
 }
 
 std::vector<CrackFacet> CohesiveZone::facets(const Topology& topology) const {

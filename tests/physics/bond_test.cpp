@@ -118,6 +118,41 @@ TEST(Bond, RefusesWhatCannotBe) {
   EXPECT_NE(refusal(model).find("weibull_area"), std::string::npos);
 }
 
+/// Linear, but it breaks at a tenth of a micrometre.
+void stiff_bond(const CohesivePoints& p) {
+  for (std::int64_t i = 0; i < p.count; ++i) {
+    double dn = 0;
+    for (int k = 0; k < 3; ++k) dn += p.opening[3 * i + k] * p.normal[3 * i + k];
+    const double t = 1e15 * std::max(0.0, dn);
+    for (int k = 0; k < 3; ++k) p.traction[3 * i + k] = t * p.normal[3 * i + k];
+    p.stored[i] = 0.5 * t * std::max(0.0, dn);
+    if (dn > 1e-7) p.damage[i] = 1;
+  }
+}
+
+TEST(Bond, TheStepKnowsTheStiffnessOfAUsersLaw) {
+  const auto run = [](double stiffness, double fixed_step) {
+    Model model = bonded_bar();
+    CohesiveLaw& law = model.cohesive_laws[0];
+    law.kind = CohesiveKind::user;
+    law.stiffness = stiffness;
+    law.callback = stiff_bond;
+    model.time.fixed_step = fixed_step;
+    model.time.end = 20e-6;
+    return Simulation(std::move(model));
+  };
+  Simulation automatic = run(1e15, 0);
+  automatic.advance(1000000);
+  EXPECT_EQ(automatic.summary().cohesive_slope_cost_j, 0);
+  EXPECT_NEAR(automatic.energies().balance(), 1, 0.01);
+  const double stable = run(0, 0).stable_step();
+  EXPECT_LT(automatic.stable_step(), 0.2 * stable);
+  Simulation beyond = run(1e15, 0.9 * stable);
+  beyond.advance(1000000);
+  EXPECT_GT(beyond.summary().cohesive_slope_cost_j, 0);
+  EXPECT_LT(beyond.energies().balance(), 1.05) << "bounded, it stays stable";
+}
+
 TEST(Bond, LaminatedGlassDelaminatesWhereTheBondIsWeak) {
   const auto run = [](double strength, double energy) {
     std::ifstream file(CDFP_SOURCE_DIR "/examples/laminated_glass/case_quick.toml");
