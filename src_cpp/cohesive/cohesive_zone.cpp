@@ -51,9 +51,12 @@ struct Point {
   double heat = 0;     ///< J/m2, done against contact and friction, less `pressed`
   double ahead = 0;    ///< J/m2, of the work above: from the step to the half step ahead of it
   double energy = 0;   ///< J/m2 that the law dissipates, over its growth in m
+  double lent = 0;     ///< J/m2, of the spring's load at insertion, which no work had put in
   Index user = kNone;  ///< place among its user's law's points
 
   bool exists() const { return upper != lower; }
+  /// What the nodes put in: the load at insertion is paid back as the point softens.
+  double stored_by_nodes() const { return stored - (lent - (0.5 * softening.scale - energy) * growth); }
   bool broken() const { return largest >= softening.reach; }
 };
 
@@ -210,7 +213,7 @@ void CohesiveZone::Points::give_law(Point& point, const Facet& facet) {
   point.softening = {point.strength, 2 * law.fracture_energy / point.strength};
   point.energy = 0.5 * point.strength;
   if (law.kind == CohesiveKind::user) {
-    point.softening.scale = 0;
+    point.softening.scale = point.energy = 0;
     const Split carried(facet.traction, facet.normal);
     point.user = users[facet.law].add(carried.t + std::max(carried.n, 0.0) * facet.normal);
   }
@@ -277,6 +280,7 @@ void CohesiveZone::Points::start(Point& point, const Facet& facet, const Nodes& 
                   (point.largest / (point.strength * laws[facet.law].weights.traction)) * carried.t;
   const Split at(point.preload, facet.normal);
   point.stored = 0.5 * point.strength / point.largest * laws[facet.law].weights.quadratic(at.n, at.t2());
+  point.lent = point.stored;
   point.pressed = at.n < 0 ? 0.5 * point.contact * at.n * at.n : 0.0;
   point.heat = -point.pressed;
 }
@@ -522,9 +526,9 @@ void CohesiveZone::Points::retire_broken(double time) {
     facet.live = false;
     for (Index c = 0; c < facet.corners; ++c) {
       Point& point = points[4 * static_cast<std::size_t>(f) + c];
-      closed.friction += point.area * (point.stored + point.pressed);
+      closed.friction += point.area * (point.stored_by_nodes() + point.pressed);
       ahead_of_closed += point.area * point.ahead;
-      point.growth = point.work = point.stored = point.pressed = point.heat = point.ahead = 0;
+      point.lent = point.growth = point.work = point.stored = point.pressed = point.heat = point.ahead = 0;
       point.slip = {};
       if (point.exists()) clusters.touch(point.upper);
     }
@@ -540,11 +544,12 @@ void CohesiveZone::Points::retire_broken(double time) {
 CohesiveZone::Energy CohesiveZone::Points::energy_of(Index facet) const {
   Energy sum;
   for (const Point& p : points_of(facet)) {
-    sum.stored += p.area * (p.stored + p.pressed - p.ahead);
-    sum.dissipated += p.area * (p.work - p.stored);
+    const double stored = p.stored_by_nodes();
+    sum.stored += p.area * (stored + p.pressed - p.ahead);
+    sum.dissipated += p.area * (p.work - stored);
     sum.friction += p.area * p.heat;
     // A user's law says by its work what it dissipates.
-    sum.ga += p.area * (p.user == kNone ? p.energy * p.growth : p.work - p.stored);
+    sum.ga += p.area * (p.user == kNone ? p.energy * p.growth : p.work - stored);
   }
   return sum;
 }
@@ -626,7 +631,8 @@ double CohesiveZone::stiffness_over_mass(const Nodes& nodes) const {
     sum = (i > 0 && sums[i].first == sums[i - 1].first ? sum : 0) + sums[i].second;
     largest = std::max(largest, sum);
   }
-  return largest;
+  // At 2 / sqrt of this, `kUserStiffness` bounds no slope.
+  return 2 / kUserStiffness * largest;
 }
 
 std::vector<CrackFacet> CohesiveZone::facets(const Topology& topology) const {

@@ -61,8 +61,8 @@ class CohesiveZone {
   };
   Energy energy() const;
 
-  /// Largest stiffness of users' laws at a node over its mass, 1/s2: for the stable step. The built-in laws
-  /// are solved for and bound no step.
+  /// 4 / step^2 below which the stiffnesses that users' laws name are followed as they are, 1/s2: for the
+  /// stable step. The built-in laws are solved for and bound no step.
   double stiffness_over_mass(const Nodes& nodes) const;
 
   /// For output, in the order of insertion. Bonds show once they are damaged.
