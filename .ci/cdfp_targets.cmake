@@ -8,8 +8,12 @@ target_compile_options(cdfp_options INTERFACE
   $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-restrict>) # GCC 12 sees overlaps in std::string that are not there
 target_link_libraries(cdfp_options INTERFACE OpenMP::OpenMP_CXX)
 if(CDFP_SANITIZE)
-  target_compile_options(cdfp_options INTERFACE -O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
-  target_link_options(cdfp_options INTERFACE -fsanitize=address,undefined)
+  # Of every language and program: the sanitizers' runtime has to be loaded first.
+  add_compile_options(-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(-Wno-maybe-uninitialized) # GCC loses its way among the sanitizers' branches
+  endif()
 endif()
 
 # cdfp_room(NAME SOURCES a.cpp ... [LIBRARIES lib ...]): object library cdfp_NAME of the folder's sources

@@ -347,7 +347,7 @@ contains
         call refuse('add_prescribed_velocity: there must be one value for each time', stat, errmsg)
         return
       end if
-      instants = times
+      allocate (instants, source=times)
     end if
     ! an array that is not allocated is an absent argument
     call report(cdfp_model_add_prescribed_velocity(this%handle%address, c_text(node_set), flags(directions), &
