@@ -43,7 +43,7 @@ int run(const std::string& case_file, const std::string& folder, int threads) {
 
 /// GNU's OpenMP lets threads spin for about a millisecond before they sleep, and reads how long when the
 /// program is loaded. Beside other work on the same processors that makes two threads ten times slower than
-/// one. A user's own choice stands.
+/// one; on a free machine the short spin costs nothing measurable. A user's own choice stands.
 void start_with_short_spin(char** arguments) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
   if (setenv("GOMP_SPINCOUNT", "2000", 1) == 0) execv("/proc/self/exe", arguments);
