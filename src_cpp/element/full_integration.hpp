@@ -135,11 +135,7 @@ struct FullIntegration {
       const T third = s.trace() * T(1.0 / 3);
       pressure += w * third;
       const Symmetric<T> ws = w * Symmetric<T>{s.xx - third, s.yy - third, s.zz - third, s.xy, s.yz, s.xz};
-      for (int d = 0; d < 3; ++d) {
-        p[0][d] = grad[0][d] * ws.xx + grad[1][d] * ws.xy + grad[2][d] * ws.xz;
-        p[1][d] = grad[0][d] * ws.xy + grad[1][d] * ws.yy + grad[2][d] * ws.yz;
-        p[2][d] = grad[0][d] * ws.xz + grad[1][d] * ws.yz + grad[2][d] * ws.zz;
-      }
+      first_piola_kirchhoff(grad, ws, p);
       Points::add_pull(constants, p, point, pull);
     }
     for (auto& column : mean) {

@@ -63,6 +63,16 @@ CDFP_INLINE T determinant(const T (&f)[3][3]) {
          f[0][2] * (f[1][0] * f[2][1] - f[1][1] * f[2][0]);
 }
 
+/// F S, columns.
+template <class T, class Stress>
+CDFP_INLINE void first_piola_kirchhoff(const T (&f)[3][3], const Stress& s, T (&p)[3][3]) {
+  for (int d = 0; d < 3; ++d) {
+    p[0][d] = f[0][d] * s.xx + f[1][d] * s.xy + f[2][d] * s.xz;
+    p[1][d] = f[0][d] * s.xy + f[1][d] * s.yy + f[2][d] * s.yz;
+    p[2][d] = f[0][d] * s.xz + f[1][d] * s.yz + f[2][d] * s.zz;
+  }
+}
+
 /// F S F^T
 template <class T, class Stress>
 CDFP_INLINE void push_forward(const T (&f)[3][3], const Stress& s, T (&sigma)[3][3]) {

@@ -157,11 +157,7 @@ struct OnePoint {
     green_strain(grad, strain);
     const Symmetric<T> s = stress_of(strain, 0);
     const Symmetric<T> vs = load<T>(constants + Shape::kVolume * kLanes) * s;
-    for (int d = 0; d < 3; ++d) {
-      p[0][d] = grad[0][d] * vs.xx + grad[1][d] * vs.xy + grad[2][d] * vs.xz;
-      p[1][d] = grad[0][d] * vs.xy + grad[1][d] * vs.yy + grad[2][d] * vs.yz;
-      p[2][d] = grad[0][d] * vs.xz + grad[1][d] * vs.yz + grad[2][d] * vs.zz;
-    }
+    first_piola_kirchhoff(grad, vs, p);
     Shape::remove_linear(constants, grad, m);
     add_hourglass(part, constants, grad, p, m);
     Shape::modal_force(constants, p, m);

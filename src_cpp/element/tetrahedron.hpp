@@ -29,11 +29,7 @@ struct Tetrahedron {
     green_strain(grad, strain);
     const Symmetric<T> s = stress_of(strain, 0);
     const Symmetric<T> vs = volume<T>(constants, 0) * s;
-    for (int d = 0; d < 3; ++d) {
-      p[0][d] = grad[0][d] * vs.xx + grad[1][d] * vs.xy + grad[2][d] * vs.xz;
-      p[1][d] = grad[0][d] * vs.xy + grad[1][d] * vs.yy + grad[2][d] * vs.yz;
-      p[2][d] = grad[0][d] * vs.xz + grad[1][d] * vs.yz + grad[2][d] * vs.zz;
-    }
+    first_piola_kirchhoff(grad, vs, p);
     for (int corner = 1; corner < 4; ++corner) {
       const T d0 = slope<T>(constants, corner, 0), d1 = slope<T>(constants, corner, 1);
       const T d2 = slope<T>(constants, corner, 2);

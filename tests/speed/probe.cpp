@@ -2,62 +2,24 @@
 // The difference of two runs with unlike ROUNDS is free of set-up.
 #include <cstdio>
 #include <cstdlib>
-#include <random>
 #include <string>
 
 #include "cdfp/laminated_plate.hpp"
 #include "cdfp/simulation.hpp"
 #include "element/element_force.hpp"
 #include "integrator/central_difference.hpp"
+#include "support/plate.hpp"
 
 namespace {
 
 using namespace cdfp;
 
-constexpr Index kSide = 8, kLayers = 4;  // 256 elements: whole blocks
-
-/// Columns with moved sides, or nodes all moved.
+/// 256 elements: whole blocks.
 Model box(bool extruded, Formulation formulation, bool rate_dependent) {
-  Model model;
-  Mesh& mesh = model.mesh;
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> shift(-0.1e-3, 0.1e-3);
-  double moved[2 * (kSide + 1) * (kSide + 1)];
-  for (double& m : moved) m = shift(random);
-  for (Index k = 0; k <= kLayers; ++k) {
-    for (Index j = 0; j <= kSide; ++j) {
-      for (Index i = 0; i <= kSide; ++i) {
-        const double* column = moved + 2 * (i + (kSide + 1) * j);
-        mesh.coordinates.insert(mesh.coordinates.end(), {1e-3 * i + column[0], 1e-3 * j + column[1],
-                                                         1e-3 * k + (extruded ? 0 : shift(random))});
-      }
-    }
-  }
-  const auto node = [](Index i, Index j, Index k) { return i + (kSide + 1) * (j + (kSide + 1) * k); };
-  for (Index k = 0; k < kLayers; ++k) {
-    for (Index j = 0; j < kSide; ++j) {
-      for (Index i = 0; i < kSide; ++i) {
-        for (Index up = k; up < k + 2; ++up) {
-          mesh.connectivity.insert(mesh.connectivity.end(), {node(i, j, up), node(i + 1, j, up),
-                                                             node(i + 1, j + 1, up), node(i, j + 1, up)});
-        }
-      }
-    }
-  }
-  mesh.types.assign(std::size_t{kSide} * kSide * kLayers, ElementType::hexahedron);
-  mesh.parts.assign(mesh.types.size(), 0);
-  mesh.part_names = {"box"};
-  if (rate_dependent) {
-    model.materials.push_back({"law", RateDependentMaterial{1000, 0.49, 5.88e6, 29.21e6, 0.176, 1e-6}});
-  } else {
-    model.materials.push_back({"law", ElasticMaterial{2500, 74e9, 0.2}});
-  }
+  constexpr Index kColumns = 8;
+  Model model = bench::plate(extruded ? bench::Shape::extruded : bench::Shape::distorted, formulation,
+                             rate_dependent, kColumns);
   model.threads = 1;  // threads that wait would count too
-  Part part;
-  part.name = "box";
-  part.material = "law";
-  part.formulation = formulation;
-  model.parts.push_back(part);
   return model;
 }
 
