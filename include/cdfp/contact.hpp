@@ -34,13 +34,20 @@ class PairRows {
   void compress(std::vector<Index>& start, std::vector<Index>& partners) const;
   std::size_t memory() const;
 
-  /// The rows of one partner after another: those of the i-th end at `end[i]`.
+  /// The rows of one partner after another: those of the i-th end at `end[i]`. `rows` is as long as its use
+  /// so far, `count` is how many it holds.
   struct Found {
     std::vector<Index> rows;
     std::vector<std::size_t> end;
+    std::size_t count = 0;
     void reset(std::int64_t partners) {
-      rows.clear();
+      count = 0;
       end.resize(static_cast<std::size_t>(partners));
+    }
+    void grow() { rows.resize(2 * rows.size() + 1024); }
+    void add(Index row) {
+      if (count == rows.size()) grow();
+      rows[count++] = row;
     }
   };
   /// Starts anew from what was found, piece after piece; the first partner is 0.

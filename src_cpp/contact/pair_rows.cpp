@@ -31,8 +31,8 @@ void PairRows::assign(Index rows, std::span<const Found> pieces) {
   Index* const start = start_.data();
   std::size_t count = 0;
   for (const Found& piece : pieces) {
-    for (const Index row : piece.rows) ++start[row + 2];
-    count += piece.rows.size();
+    for (std::size_t i = 0; i < piece.count; ++i) ++start[piece.rows[i] + 2];
+    count += piece.count;
   }
   for (Index r = 0; r < rows; ++r) start[r + 2] += start[r + 1];
   partners_.resize(count);

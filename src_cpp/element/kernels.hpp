@@ -47,8 +47,7 @@ extern const Kernels kKernelsAvx2;
 extern const Kernels kKernelsAvx512;
 #endif
 
-/// The best set that this processor runs. The environment variable CDFP_ISA (baseline, avx2 or avx512) may
-/// name a lesser one; throws `Error(bad_argument)` for another word or a set that the processor lacks.
+/// Those of `choose_instruction_set`.
 const Kernels& choose_kernels();
 
 }  // namespace cdfp
