@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -25,8 +26,10 @@ std::size_t keep(std::span<Index> ids, const Test& test) {
 
 }  // namespace
 
-/// What is paired or summed together: the same pieces for any number of threads.
+/// What is summed together: the same pieces for any number of threads.
 constexpr std::int64_t kPiece = 4096;
+/// Segments that one call pairs: what it found is still at hand when it is counted.
+constexpr std::int64_t kBatch = 512;
 
 struct ContactSearch::Cells {
   double cell_factor, buffer_factor;
@@ -50,7 +53,7 @@ struct ContactSearch::Cells {
   std::vector<Index> all_rows, names_in_cells;
   std::vector<RoughBox> boxes, edge_boxes, spaces;
   std::vector<double> lengths;         // sums over pieces
-  std::vector<PairRows::Found> found;  // by piece
+  std::vector<PairRows::Found> found;  // by thread
 
   static bool may_pair(const SurfaceView& s, Index a, Index b) {
     return a != b && (s.groups.empty() || s.groups[a] < 0 || s.groups[a] != s.groups[b]);
@@ -94,11 +97,15 @@ struct ContactSearch::Cells {
     });
   }
 
-  /// Keeps the room that it had before, whatever was searched for then.
-  std::span<PairRows::Found> room_for(Index partners) {
-    const std::size_t pieces = static_cast<std::size_t>((partners + kPiece - 1) / kPiece);
-    if (found.size() < pieces) found.resize(pieces);
-    return std::span(found).first(pieces);
+  /// `search(begin, end, found)` over the partners, a share for each thread.
+  template <class Search>
+  void search_shares(const Threads& threads, Index partners, Index rows, const Search& search) {
+    found.resize(threads.count());
+    threads.for_each(threads.count(), [&](std::int64_t t) {
+      const std::int64_t begin = partners * t / threads.count(), end = partners * (t + 1) / threads.count();
+      found[t].start(static_cast<Index>(begin), static_cast<Index>(end - begin), rows);
+      search(begin, end, found[t]);
+    });
   }
 
   void regular(const SurfaceView& s, const Threads& threads);
@@ -184,18 +191,17 @@ void ContactSearch::Cells::regular(const SurfaceView& s, const Threads& threads)
                       boxes.data(),
                       grow,
                       buffer};
-  const std::span<PairRows::Found> pieces = room_for(segments);
-  threads.for_ranges(segments, kPiece, [&](std::int64_t begin, std::int64_t end) {
-    PairRows::Found& here = pieces[begin / kPiece];
-    here.reset(end - begin);
+  search_shares(threads, segments, nodes, [&](std::int64_t begin, std::int64_t end, PairRows::Found& here) {
+    std::array<Index, kBatch> ends;
     for (std::int64_t m = begin; m < end;) {
-      FoundRows rows{here.rows.data(), here.count, here.rows.size()};
-      m = kernels.pair_nodes(job, m, end, rows, here.end.data() + (m - begin));
-      here.count = rows.count;
-      if (m < end) here.grow();
+      FoundRows rows{here.room(), 0, here.room_size()};
+      const std::int64_t done = kernels.pair_nodes(job, m, std::min(end, m + kBatch), rows, ends.data());
+      here.took(rows.count, std::span(ends).first(done - m));
+      if (done < std::min(end, m + kBatch)) here.make_room();
+      m = done;
     }
   });
-  node_segments.assign(nodes, pieces);
+  node_segments.assign(nodes, found);
   if (open) {
     segment_cells.reset(space, 2 * length);
     segment_cells.build(boxes, true);
@@ -214,10 +220,7 @@ void ContactSearch::Cells::pair_edges(const SurfaceView& s, const RoughBox& spac
   });
   edge_cells.reset(space, 1.5 * length);
   edge_cells.build(edge_boxes, open);
-  const std::span<PairRows::Found> pieces = room_for(edges);
-  threads.for_ranges(edges, kPiece, [&](std::int64_t begin, std::int64_t end) {
-    PairRows::Found& here = pieces[begin / kPiece];
-    here.reset(end - begin);
+  search_shares(threads, edges, edges, [&](std::int64_t begin, std::int64_t end, PairRows::Found& here) {
     for (std::int64_t e = begin; e < end; ++e) {
       const auto edge = static_cast<Index>(e);
       edge_cells.visit(edge_boxes[e], [&](std::span<const Index> others) {
@@ -225,10 +228,10 @@ void ContactSearch::Cells::pair_edges(const SurfaceView& s, const RoughBox& spac
           if (other < edge && edges_may_touch(s, other, edge)) here.add(other);
         }
       });
-      here.end[e - begin] = here.count;
+      here.end_partner();
     }
   });
-  edge_edges.assign(edges, pieces);
+  edge_edges.assign(edges, found);
 }
 
 void ContactSearch::Cells::remember_names(const SurfaceView& s) {
@@ -371,9 +374,7 @@ std::span<const Index> ContactSearch::touched_edge_rows() const {
 std::size_t ContactSearch::memory() const {
   const Cells& c = *cells_;
   std::size_t pairs = 0;
-  for (const PairRows::Found& piece : c.found) {
-    pairs += piece.rows.capacity() * sizeof(Index) + piece.end.capacity() * sizeof(std::size_t);
-  }
+  for (const PairRows::Found& share : c.found) pairs += share.memory();
   return c.node_cells.memory() + c.segment_cells.memory() + c.edge_cells.memory() + c.node_segments.memory() +
          c.edge_edges.memory() + c.points.capacity() * sizeof(Float4) +
          (c.boxes.capacity() + c.edge_boxes.capacity()) * sizeof(RoughBox) + pairs +

@@ -42,7 +42,7 @@ struct SearchKernels {
   /// Segments from `begin` until `end` or until there is no more room, which is what it returns. `ends[i]`:
   /// where the rows of the i-th of them end.
   std::int64_t (*pair_nodes)(const NodePairs& job, std::int64_t begin, std::int64_t end, FoundRows& found,
-                             std::size_t* ends);
+                             Index* ends);
 };
 
 extern const SearchKernels kSearchBaseline;

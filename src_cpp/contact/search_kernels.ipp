@@ -78,7 +78,7 @@ struct Finder {
 };
 
 std::int64_t pair_nodes(const NodePairs& pairs, std::int64_t begin, std::int64_t end, FoundRows& found_rows,
-                        std::size_t* ends) {
+                        Index* ends) {
   // Copies, which nothing that is written can alias.
   const NodePairs job = pairs;
   FoundRows found = found_rows;
@@ -106,7 +106,7 @@ std::int64_t pair_nodes(const NodePairs& pairs, std::int64_t begin, std::int64_t
       return m;
     }
     job.boxes[m] = box;
-    ends[m - begin] = found.count;
+    ends[m - begin] = static_cast<Index>(found.count);
   }
   found_rows.count = found.count;
   return end;
@@ -115,12 +115,13 @@ std::int64_t pair_nodes(const NodePairs& pairs, std::int64_t begin, std::int64_t
 /// A place in double precision, and the same about the origin in single precision.
 struct Place {
 #if defined(__AVX2__)
-  typedef double Double4 __attribute__((vector_size(32)));
-  Double4 x;
+  __m256d x;  // x, y, y, z
 
-  CDFP_ALWAYS_INLINE explicit Place(const double* p) : x{p[0], p[1], p[2], 0} {}
+  CDFP_ALWAYS_INLINE explicit Place(const double* p)
+      : x(_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(p)), _mm_loadu_pd(p + 1), 1)) {}
   CDFP_ALWAYS_INLINE Float4 about(const Place& origin) const {
-    return __builtin_convertvector(x - origin.x, Float4);
+    const auto lanes = reinterpret_cast<Float4>(_mm256_cvtpd_ps(_mm256_sub_pd(x, origin.x)));
+    return __builtin_shufflevector(lanes, lanes, 0, 1, 3, 3);
   }
 #else
   Double2 xy, z;
