@@ -228,7 +228,7 @@ void Simulation::Stages::list_stages() {
     add_stage(forces_, "criterion", [this] {
       criterion->find(
           elements.critical_elements(), topology, nodes.position,
-          [this](Index e) { return elements.stress(e, nodes.position); }, open_);
+          [this](Index e) { return elements.stress(e, nodes.position); }, open_, threads);
     });
     add_stage(forces_, "insertion", [this] { insert_open_facets(); });
   }
