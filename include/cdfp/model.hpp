@@ -167,6 +167,7 @@ struct ContactSettings {
   double penalty_factor = 1.0;        ///< zeta in k = zeta K A^2 / V
   double friction = 0;                ///< Coulomb coefficient
   double depth_limit = 0.5;           ///< deepest penetration that counts, over the segment's element height
+  double penetration_warning = 0.1;   ///< share of that height from which a warning names the pair
   bool edge_edge = true;
   bool adaptive = true;  ///< false: a regular search whenever contact entities are new
 };

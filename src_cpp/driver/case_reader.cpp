@@ -261,6 +261,7 @@ void read_contact(TomlTable& top, Model& model) {
   t->read("penalty_factor", c.penalty_factor, kPositive);
   t->read("friction", c.friction, kNotNegative);
   t->read("depth_limit", c.depth_limit, kPositive);
+  t->read("penetration_warning", c.penetration_warning, kPositive);
   t->read("edge_edge", c.edge_edge);
   t->read("adaptive", c.adaptive);
   t->finish();

@@ -204,6 +204,7 @@ void check_settings(const Model& model) {
   require_positive(c.buffer_factor, "contact: buffer_factor");
   require_positive(c.penalty_factor, "contact: penalty_factor");
   require_positive(c.depth_limit, "contact: depth_limit");
+  require_positive(c.penetration_warning, "contact: penetration_warning");
   require(c.friction >= 0, "contact: friction must not be negative");
   require_positive(model.time.end, "time: end");
   require(model.time.fixed_step >= 0,
