@@ -37,6 +37,43 @@ std::array<bool, 3> flags_or_none(const int32_t* f) {
 
 }  // namespace
 
+cdfp::CohesiveLaw cdfp::gate::law_of(const char* name, const cdfp_cohesive_law* law) {
+  need(law, "law");
+  need_number(law->kind, 4, "kind");
+  return {.name = name,
+          .strength = law->strength,
+          .fracture_energy = law->fracture_energy,
+          .mode_ratio = law->mode_ratio,
+          .shear_ratio = law->shear_ratio,
+          .friction = law->friction,
+          .friction_exponent = law->friction_exponent,
+          .internal_friction = law->internal_friction,
+          .kind = static_cast<CohesiveKind>(law->kind),
+          .stiffness = law->stiffness,
+          .weibull_modulus = law->weibull_modulus,
+          .weibull_area = law->weibull_area,
+          .seed = law->seed};
+}
+
+void cdfp::gate::set_callback(CohesiveLaw& law, cdfp_cohesive_callback callback, std::int32_t states,
+                              void* user_data) {
+  if (!callback) refuse("argument 'callback' is null; give the function that computes the traction");
+  law.states = states;
+  law.callback = [callback, user_data](const CohesivePoints& p) {
+    const cdfp_cohesive_points points = {.count = p.count,
+                                         .time = p.time,
+                                         .step = p.step,
+                                         .opening = p.opening,
+                                         .normal = p.normal,
+                                         .insertion_traction = p.insertion_traction,
+                                         .state = p.state,
+                                         .traction = p.traction,
+                                         .stored = p.stored,
+                                         .damage = p.damage};
+    callback(&points, user_data);
+  };
+}
+
 int32_t cdfp_model_create(cdfp_model** model) {
   return guarded(__func__, [&] {
     need(model, "model");
@@ -146,21 +183,7 @@ int32_t cdfp_cohesive_law_default(cdfp_cohesive_law* law) {
 int32_t cdfp_model_add_cohesive_law(cdfp_model* model, const char* name, const cdfp_cohesive_law* law) {
   return guarded(__func__, [&] {
     const Change m(model);
-    need(law, "law");
-    need_number(law->kind, 4, "kind");
-    m->cohesive_laws.push_back({.name = name_of(name, "name"),
-                                .strength = law->strength,
-                                .fracture_energy = law->fracture_energy,
-                                .mode_ratio = law->mode_ratio,
-                                .shear_ratio = law->shear_ratio,
-                                .friction = law->friction,
-                                .friction_exponent = law->friction_exponent,
-                                .internal_friction = law->internal_friction,
-                                .kind = static_cast<CohesiveKind>(law->kind),
-                                .stiffness = law->stiffness,
-                                .weibull_modulus = law->weibull_modulus,
-                                .weibull_area = law->weibull_area,
-                                .seed = law->seed});
+    m->cohesive_laws.push_back(law_of(name_of(name, "name").c_str(), law));
   });
 }
 
@@ -169,24 +192,10 @@ int32_t cdfp_model_set_cohesive_callback(cdfp_model* model, const char* cohesive
   return guarded(__func__, [&] {
     const Change m(model);
     const std::string name = name_of(cohesive_law, "cohesive_law");
-    if (!callback) refuse("argument 'callback' is null; give the function that computes the traction");
     const auto law = std::find_if(m->cohesive_laws.begin(), m->cohesive_laws.end(),
                                   [&](const CohesiveLaw& l) { return l.name == name; });
     if (law == m->cohesive_laws.end()) refuse("there is no cohesive law '" + name + "'; add it first");
-    law->states = states;
-    law->callback = [callback, user_data](const CohesivePoints& p) {
-      const cdfp_cohesive_points points = {.count = p.count,
-                                           .time = p.time,
-                                           .step = p.step,
-                                           .opening = p.opening,
-                                           .normal = p.normal,
-                                           .insertion_traction = p.insertion_traction,
-                                           .state = p.state,
-                                           .traction = p.traction,
-                                           .stored = p.stored,
-                                           .damage = p.damage};
-      callback(&points, user_data);
-    };
+    set_callback(*law, callback, states, user_data);
   });
 }
 
@@ -312,31 +321,12 @@ int32_t cdfp_model_add_contact_surface(cdfp_model* model, const char* facet_set)
 int32_t cdfp_model_get_contact(const cdfp_model* model, cdfp_contact_settings* settings) {
   return guarded(__func__, [&] {
     const Look m(model);
-    need(settings, "settings");
-    const ContactSettings& c = m->contact;
-    *settings = {.cell_factor = c.cell_factor,
-                 .buffer_factor = c.buffer_factor,
-                 .penalty_factor = c.penalty_factor,
-                 .friction = c.friction,
-                 .depth_limit = c.depth_limit,
-                 .edge_edge = c.edge_edge,
-                 .adaptive = c.adaptive};
+    set(settings, shown(m->contact), "settings");
   });
 }
 
 int32_t cdfp_model_set_contact(cdfp_model* model, const cdfp_contact_settings* settings) {
-  return guarded(__func__, [&] {
-    const Change m(model);
-    need(settings, "settings");
-    ContactSettings& c = m->contact;
-    c.cell_factor = settings->cell_factor;
-    c.buffer_factor = settings->buffer_factor;
-    c.penalty_factor = settings->penalty_factor;
-    c.friction = settings->friction;
-    c.depth_limit = settings->depth_limit;
-    c.edge_edge = settings->edge_edge != 0;
-    c.adaptive = settings->adaptive != 0;
-  });
+  return guarded(__func__, [&] { take_settings(settings, Change(model)->contact); });
 }
 
 int32_t cdfp_model_set_end_time(cdfp_model* model, double end) {

@@ -10,12 +10,6 @@ using namespace cdfp::gate;
 
 namespace {
 
-template <class Value>
-void set(Value* out, Value value, const char* name) {
-  need(out, name);
-  *out = value;
-}
-
 void show(std::span<const double> values, std::size_t per_node, const double** data, int64_t* nodes,
           const char* name) {
   need(data, name);

@@ -46,6 +46,22 @@ void put_pairs(const std::vector<Use>& found, Index Use::*part, int64_t capacity
 
 }  // namespace
 
+cdfp::gate::Changes::Changes(std::int64_t new_node_count, const std::int32_t* new_node_rows,
+                             std::int64_t renumbered_count, const std::int32_t* renumbered_rows)
+    : new_nodes(size_of(new_node_count, "new_node_count")),
+      renumbered(size_of(renumbered_count, "renumbered_count")) {
+  need_array(new_node_rows, new_node_count, "new_nodes");
+  need_array(renumbered_rows, renumbered_count, "renumbered");
+  for (std::size_t i = 0; i < new_nodes.size(); ++i) {
+    const std::int32_t* row = new_node_rows + 2 * i;
+    new_nodes[i] = {row[0], row[1]};
+  }
+  for (std::size_t i = 0; i < renumbered.size(); ++i) {
+    const std::int32_t* row = renumbered_rows + 4 * i;
+    renumbered[i] = {row[0], row[1], row[2], row[3]};
+  }
+}
+
 int32_t cdfp_topology_create(int64_t nodes, int64_t elements, const int32_t* types, int64_t corners,
                              const int32_t* connectivity, cdfp_topology** topology) {
   return guarded(__func__, [&] {
