@@ -2,7 +2,9 @@
 !> from 0 here and strings end with c_null_char; the module `cdfp` is what Fortran programs call. Results are
 !> `intent(inout)` since a call that fails leaves them as they are.
 module cdfp_c
+  use cdfp_c_cohesive
   use cdfp_c_common
+  use cdfp_c_contact
   use cdfp_c_mesh
   use cdfp_c_model
   use cdfp_c_simulation

@@ -5,7 +5,7 @@ module cdfp_models
   use cdfp_handles
   implicit none
   private
-  public :: cdfp_model, assignment(=)
+  public :: cdfp_model, new_cohesive_law, assignment(=)
 
   !> Names tie the entries together, in any order; `cdfp_simulation` checks them. All arguments are copied.
   !> Numbers of nodes, elements, facets, parts, layers and axes count from 1. Units are SI.
@@ -194,6 +194,22 @@ contains
     integer(c_int64_t), intent(in), optional :: seed
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_add_cohesive_law(this%handle%address, c_text(name), &
+                                            new_cohesive_law(strength, fracture_energy, mode_ratio, shear_ratio, &
+                                                             friction, friction_exponent, internal_friction, &
+                                                             kind, stiffness, weibull_modulus, weibull_area, &
+                                                             seed)), stat, errmsg)
+  end subroutine
+
+  !> The same as a law for the services: `cdfp_cohesive` and the laws at points.
+  function new_cohesive_law(strength, fracture_energy, mode_ratio, shear_ratio, friction, friction_exponent, &
+                            internal_friction, kind, stiffness, weibull_modulus, weibull_area, seed) result(law)
+    real(c_double), intent(in) :: strength, fracture_energy
+    real(c_double), intent(in), optional :: mode_ratio, shear_ratio, friction, friction_exponent
+    real(c_double), intent(in), optional :: internal_friction, stiffness, weibull_modulus, weibull_area
+    integer(c_int32_t), intent(in), optional :: kind
+    integer(c_int64_t), intent(in), optional :: seed
     type(cdfp_cohesive_law) :: law
     integer(c_int32_t) :: status
 
@@ -210,9 +226,7 @@ contains
     law%weibull_modulus = value_or(law%weibull_modulus, weibull_modulus)
     law%weibull_area = value_or(law%weibull_area, weibull_area)
     if (present(seed)) law%seed = seed
-    status = cdfp_model_add_cohesive_law(this%handle%address, c_text(name), law)
-    call report(status, stat, errmsg)
-  end subroutine
+  end function
 
   !> The traction of a CDFP_USER law: `callback` is `c_funloc` of a `bind(c)` subroutine with the arguments
   !> `type(cdfp_cohesive_points), intent(in) :: points` and `type(c_ptr), value :: user_data`. It keeps `states`
