@@ -40,7 +40,12 @@ struct Held<cdfp_model> {
 };
 template <>
 struct Held<cdfp_simulation> {
-  using Object = Simulation;
+  struct Object : Simulation {
+    using Simulation::Simulation;
+    cdfp_step_callback monitor = nullptr;
+    void* user_data = nullptr;
+    std::shared_ptr<bool> stepping = std::make_shared<bool>(false);  ///< while the monitor may be called
+  };
   static constexpr const char* kName = "simulation";
 };
 template <>
@@ -207,6 +212,9 @@ std::span<Value> vectors(Value* data, std::int64_t nodes, const char* name) {
   need_array(data, nodes, name);
   return {data, 3 * n};
 }
+/// Refuses types that are not bulk types and a connectivity of another length. `types` may be null.
+std::vector<ElementType> element_types_of(std::size_t elements, const std::int32_t* types,
+                                          std::size_t corners);
 /// The rows that `cdfp_topology_insert_cohesive` gives.
 struct Changes {
   Changes(std::int64_t new_node_count, const std::int32_t* new_nodes, std::int64_t renumbered_count,

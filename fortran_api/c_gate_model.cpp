@@ -27,6 +27,18 @@ std::string name_of(const char* string, const char* argument) {
   return name;
 }
 
+void set_mesh(Model& model, int64_t nodes, const double* coordinates, std::size_t elements,
+              const int32_t* types, std::span<const Index> connectivity, const int32_t* parts,
+              const int32_t* layers) {
+  const std::span<const double> x = vectors(coordinates, nodes, "coordinates");
+  need_array(parts, static_cast<int64_t>(elements), "parts");
+  model.mesh.types = element_types_of(elements, types, connectivity.size());
+  model.mesh.coordinates.assign(x.begin(), x.end());
+  model.mesh.connectivity.assign(connectivity.begin(), connectivity.end());
+  model.mesh.parts.assign(parts, parts + elements);
+  model.mesh.layers.assign(layers, layers ? layers + elements : nullptr);
+}
+
 std::array<double, 3> vector_or_zero(const double* v) {
   return v ? std::array<double, 3>{v[0], v[1], v[2]} : std::array<double, 3>{};
 }
@@ -93,16 +105,22 @@ int32_t cdfp_model_set_mesh(cdfp_model* model, int64_t nodes, const double* coor
                             const int32_t* hexahedra, const int32_t* parts, const int32_t* layers) {
   return guarded(__func__, [&] {
     const Change m(model);
-    const std::size_t n = size_of(nodes, "nodes");
-    const std::size_t e = size_of(elements, "elements");
-    need_array(coordinates, nodes, "coordinates");
     need_array(hexahedra, elements, "hexahedra");
-    need_array(parts, elements, "parts");
-    m->mesh.coordinates.assign(coordinates, coordinates + 3 * n);
-    m->mesh.types.assign(e, ElementType::hexahedron);
-    m->mesh.connectivity.assign(hexahedra, hexahedra + 8 * e);
-    m->mesh.parts.assign(parts, parts + e);
-    m->mesh.layers.assign(layers, layers ? layers + e : nullptr);
+    const std::size_t e = size_of(elements, "elements");
+    set_mesh(*m, nodes, coordinates, e, nullptr, {hexahedra, 8 * e}, parts, layers);
+  });
+}
+
+int32_t cdfp_model_set_mixed_mesh(cdfp_model* model, int64_t nodes, const double* coordinates,
+                                  int64_t elements, const int32_t* types, int64_t corners,
+                                  const int32_t* connectivity, const int32_t* parts, const int32_t* layers) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    const std::size_t e = size_of(elements, "elements");
+    const std::size_t c = size_of(corners, "corners");
+    need_array(types, elements, "types");
+    need_array(connectivity, corners, "connectivity");
+    set_mesh(*m, nodes, coordinates, e, types, {connectivity, c}, parts, layers);
   });
 }
 
@@ -310,6 +328,18 @@ int32_t cdfp_model_set_gravity(cdfp_model* model, const double* gravity) {
     const Change m(model);
     need(gravity, "gravity");
     m->gravity = vector_or_zero(gravity);
+  });
+}
+
+int32_t cdfp_model_set_load_callback(cdfp_model* model, cdfp_load_callback callback, void* user_data) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    if (!callback) refuse("argument 'callback' is null; give the function that adds the forces");
+    m->load = [callback, user_data](const NodalLoad& l) {
+      const cdfp_nodal_load load = {
+          .nodes = l.nodes, .time = l.time, .position = l.position, .velocity = l.velocity, .force = l.force};
+      callback(&load, user_data);
+    };
   });
 }
 

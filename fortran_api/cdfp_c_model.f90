@@ -21,6 +21,12 @@ module cdfp_c_model
     type(c_ptr) :: opening, normal, insertion_traction, state, traction, stored, damage
   end type
 
+  type, bind(c) :: cdfp_nodal_load
+    integer(c_int64_t) :: nodes
+    real(c_double) :: time
+    type(c_ptr) :: position, velocity, force
+  end type
+
   type, bind(c) :: cdfp_contact_settings
     real(c_double) :: cell_factor, buffer_factor, penalty_factor, friction, depth_limit
     integer(c_int32_t) :: edge_edge, adaptive
@@ -54,6 +60,20 @@ module cdfp_c_model
       real(c_double), intent(in) :: coordinates(*)
       integer(c_int64_t), value :: elements
       integer(c_int32_t), intent(in) :: hexahedra(*), parts(*)
+      integer(c_int32_t), intent(in), optional :: layers(*)
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_model_set_mixed_mesh(model, nodes, coordinates, elements, types, corners, connectivity, &
+        parts, layers) bind(c) result(status)
+      import
+      type(c_ptr), value :: model
+      integer(c_int64_t), value :: nodes
+      real(c_double), intent(in) :: coordinates(*)
+      integer(c_int64_t), value :: elements
+      integer(c_int32_t), intent(in) :: types(*)
+      integer(c_int64_t), value :: corners
+      integer(c_int32_t), intent(in) :: connectivity(*), parts(*)
       integer(c_int32_t), intent(in), optional :: layers(*)
       integer(c_int32_t) :: status
     end function
@@ -213,6 +233,14 @@ module cdfp_c_model
       import
       type(c_ptr), value :: model
       real(c_double), intent(in) :: gravity(3)
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_model_set_load_callback(model, callback, user_data) bind(c) result(status)
+      import
+      type(c_ptr), value :: model
+      type(c_funptr), value :: callback
+      type(c_ptr), value :: user_data
       integer(c_int32_t) :: status
     end function
 

@@ -1,6 +1,6 @@
 !> The C interface, one to one: simulations and their results. See `cdfp_c`.
 module cdfp_c_simulation
-  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int32_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int32_t, c_int64_t, c_ptr
   implicit none
   public
 
@@ -55,6 +55,14 @@ module cdfp_c_simulation
       type(c_ptr), value :: simulation
       real(c_double), value :: time
       integer(c_int64_t), intent(inout), optional :: done
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_simulation_set_monitor(simulation, callback, user_data) bind(c) result(status)
+      import
+      type(c_ptr), value :: simulation
+      type(c_funptr), value :: callback
+      type(c_ptr), value :: user_data
       integer(c_int32_t) :: status
     end function
 
@@ -136,6 +144,22 @@ module cdfp_c_simulation
       type(c_ptr), value :: simulation
       type(c_ptr), intent(inout) :: masses
       integer(c_int64_t), intent(inout) :: nodes
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_simulation_set_positions(simulation, nodes, positions) bind(c) result(status)
+      import
+      type(c_ptr), value :: simulation
+      integer(c_int64_t), value :: nodes
+      real(c_double), intent(in) :: positions(*)
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_simulation_set_velocities(simulation, nodes, velocities) bind(c) result(status)
+      import
+      type(c_ptr), value :: simulation
+      integer(c_int64_t), value :: nodes
+      real(c_double), intent(in) :: velocities(*)
       integer(c_int32_t) :: status
     end function
 

@@ -16,6 +16,7 @@ module cdfp_models
     procedure :: free
     procedure :: set_title
     procedure :: set_mesh
+    procedure :: set_mixed_mesh
     procedure :: add_node_set
     procedure :: add_facet_set
     procedure :: add_elastic_material
@@ -33,6 +34,7 @@ module cdfp_models
     procedure :: add_prescribed_velocity
     procedure :: add_initial_velocity
     procedure :: set_gravity
+    procedure :: set_load_callback
     procedure :: add_contact_surface
     procedure :: set_contact
     procedure :: set_time
@@ -109,6 +111,37 @@ contains
     call report(cdfp_model_set_mesh(this%handle%address, size(coordinates, 2, c_int64_t), coordinates, &
                                     size(hexahedra, 2, c_int64_t), hexahedra - 1_c_int32_t, &
                                     parts - 1_c_int32_t, layers_from_0), stat, errmsg)
+  end subroutine
+
+  !> The same for any bulk elements: `types`: CDFP_TETRAHEDRON and the like; `connectivity`: the corners of all
+  !> elements one after the other.
+  subroutine set_mixed_mesh(this, coordinates, types, connectivity, parts, layers, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    real(c_double), contiguous, intent(in) :: coordinates(:, :)
+    integer(c_int32_t), contiguous, intent(in) :: types(:), connectivity(:), parts(:)
+    integer(c_int32_t), contiguous, intent(in), optional :: layers(:)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t), allocatable :: layers_from_0(:)
+
+    if (size(coordinates, 1) /= 3) then
+      call refuse('set_mixed_mesh: coordinates must be of shape (3, nodes)', stat, errmsg)
+      return
+    else if (size(parts) /= size(types)) then
+      call refuse('set_mixed_mesh: parts must name one part for each element', stat, errmsg)
+      return
+    end if
+    if (present(layers)) then
+      if (size(layers) /= size(types)) then
+        call refuse('set_mixed_mesh: layers must name one layer for each element', stat, errmsg)
+        return
+      end if
+      layers_from_0 = layers - 1_c_int32_t
+    end if
+    call report(cdfp_model_set_mixed_mesh(this%handle%address, size(coordinates, 2, c_int64_t), coordinates, &
+                                          size(types, kind=c_int64_t), types, &
+                                          size(connectivity, kind=c_int64_t), connectivity - 1_c_int32_t, &
+                                          parts - 1_c_int32_t, layers_from_0), stat, errmsg)
   end subroutine
 
   subroutine add_node_set(this, name, nodes, stat, errmsg)
@@ -392,6 +425,22 @@ contains
     character(len=*), intent(inout), optional :: errmsg
 
     call report(cdfp_model_set_gravity(this%handle%address, gravity), stat, errmsg)
+  end subroutine
+
+  !> Forces of the program's own: `callback` is `c_funloc` of a `bind(c)` subroutine with the arguments
+  !> `type(cdfp_nodal_load), intent(in) :: load` and `type(c_ptr), value :: user_data`. It is called once a step
+  !> and fills `load%force`, which is 0 at first. Its work is external work.
+  subroutine set_load_callback(this, callback, user_data, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    type(c_funptr), intent(in) :: callback
+    type(c_ptr), intent(in), optional :: user_data
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: user
+
+    user = c_null_ptr
+    if (present(user_data)) user = user_data
+    call report(cdfp_model_set_load_callback(this%handle%address, callback, user), stat, errmsg)
   end subroutine
 
   !> A facet set that may touch others and itself; without any the scene has no contact.

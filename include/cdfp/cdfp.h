@@ -132,6 +132,11 @@ int32_t cdfp_model_set_title(cdfp_model* model, const char* title);
  *  the order of `cdfp_model_add_part`. `layers` may be NULL. */
 int32_t cdfp_model_set_mesh(cdfp_model* model, int64_t nodes, const double* coordinates, int64_t elements,
                             const int32_t* hexahedra, const int32_t* parts, const int32_t* layers);
+/** The same for any bulk elements: `types` (elements) of CDFP_HEXAHEDRON and the like; `corners`: how many
+ *  numbers `connectivity` holds, the corners of all elements one after the other. */
+int32_t cdfp_model_set_mixed_mesh(cdfp_model* model, int64_t nodes, const double* coordinates,
+                                  int64_t elements, const int32_t* types, int64_t corners,
+                                  const int32_t* connectivity, const int32_t* parts, const int32_t* layers);
 int32_t cdfp_model_add_node_set(cdfp_model* model, const char* name, int64_t count, const int32_t* nodes);
 int32_t cdfp_model_add_facet_set(cdfp_model* model, const char* name, int64_t count, const int32_t* facets);
 
@@ -233,6 +238,21 @@ int32_t cdfp_model_add_initial_velocity(cdfp_model* model, const char* part, con
                                         const double* gradient);
 int32_t cdfp_model_set_gravity(cdfp_model* model, const double* gravity);
 
+/** What a load is asked for at a step. Vectors are (nodes, 3); nodes that cracks made are among them. */
+typedef struct cdfp_nodal_load {
+  int64_t nodes;
+  double time;            /**< s */
+  const double* position; /**< m */
+  const double* velocity; /**< m/s, at the half step that led to `position` */
+  double* force;          /**< out, 0 at first: N */
+} cdfp_nodal_load;
+
+typedef void (*cdfp_load_callback)(const cdfp_nodal_load* load, void* user_data);
+
+/** Forces of the caller's own, once a step; their work is external work. The callback must not call cdfp with
+ *  the simulation's handle, and `user_data` must live as long as the model's simulations do. */
+int32_t cdfp_model_set_load_callback(cdfp_model* model, cdfp_load_callback callback, void* user_data);
+
 /** What `cdfp_model_get_contact` fills and `cdfp_model_set_contact` takes: get, change what differs, set. */
 typedef struct cdfp_contact_settings {
   double cell_factor;    /**< w1: cell length over mean segment length */
@@ -324,6 +344,13 @@ int32_t cdfp_simulation_advance(cdfp_simulation* simulation, int64_t steps, int6
 /** Steps until half a step from `time` or nearer, or the end; `done` may be NULL. */
 int32_t cdfp_simulation_advance_to(cdfp_simulation* simulation, double time, int64_t* done);
 
+/** Called after every step with the handle that was stepped; not 0: no further step of this call. It may look
+ *  at the simulation and change its state, but not step it. */
+typedef int32_t (*cdfp_step_callback)(cdfp_simulation* simulation, void* user_data);
+/** NULL: none. */
+int32_t cdfp_simulation_set_monitor(cdfp_simulation* simulation, cdfp_step_callback callback,
+                                    void* user_data);
+
 int32_t cdfp_simulation_finished(const cdfp_simulation* simulation, int32_t* finished);
 int32_t cdfp_simulation_time(const cdfp_simulation* simulation, double* time);
 int32_t cdfp_simulation_step_size(const cdfp_simulation* simulation, double* step_size);
@@ -341,6 +368,13 @@ int32_t cdfp_simulation_velocities(const cdfp_simulation* simulation, const doub
 /** All nodal forces of the last step. */
 int32_t cdfp_simulation_forces(const cdfp_simulation* simulation, const double** forces, int64_t* nodes);
 int32_t cdfp_simulation_masses(const cdfp_simulation* simulation, const double** masses, int64_t* nodes);
+
+/* Changes of the state between steps, (nodes, 3). Nodes of rigid bodies and directions that are prescribed
+ * keep what they have; the energy that a change brings is external work. */
+/** Contact is searched anew. */
+int32_t cdfp_simulation_set_positions(cdfp_simulation* simulation, int64_t nodes, const double* positions);
+/** Half a step ahead of the positions. */
+int32_t cdfp_simulation_set_velocities(cdfp_simulation* simulation, int64_t nodes, const double* velocities);
 
 int32_t cdfp_simulation_body_count(const cdfp_simulation* simulation, int64_t* bodies);
 /** Bodies in the order of `cdfp_model_add_rigid_body`. */
