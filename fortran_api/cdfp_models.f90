@@ -5,7 +5,7 @@ module cdfp_models
   use cdfp_handles
   implicit none
   private
-  public :: cdfp_model, assignment(=)
+  public :: cdfp_model, new_cohesive_law, assignment(=)
 
   !> Names tie the entries together, in any order; `cdfp_simulation` checks them. All arguments are copied.
   !> Numbers of nodes, elements, facets, parts, layers and axes count from 1. Units are SI.
@@ -16,6 +16,7 @@ module cdfp_models
     procedure :: free
     procedure :: set_title
     procedure :: set_mesh
+    procedure :: set_mixed_mesh
     procedure :: add_node_set
     procedure :: add_facet_set
     procedure :: add_elastic_material
@@ -33,6 +34,7 @@ module cdfp_models
     procedure :: add_prescribed_velocity
     procedure :: add_initial_velocity
     procedure :: set_gravity
+    procedure :: set_load_callback
     procedure :: add_contact_surface
     procedure :: set_contact
     procedure :: set_time
@@ -109,6 +111,37 @@ contains
     call report(cdfp_model_set_mesh(this%handle%address, size(coordinates, 2, c_int64_t), coordinates, &
                                     size(hexahedra, 2, c_int64_t), hexahedra - 1_c_int32_t, &
                                     parts - 1_c_int32_t, layers_from_0), stat, errmsg)
+  end subroutine
+
+  !> The same for any bulk elements: `types`: CDFP_TETRAHEDRON and the like; `connectivity`: the corners of all
+  !> elements one after the other.
+  subroutine set_mixed_mesh(this, coordinates, types, connectivity, parts, layers, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    real(c_double), contiguous, intent(in) :: coordinates(:, :)
+    integer(c_int32_t), contiguous, intent(in) :: types(:), connectivity(:), parts(:)
+    integer(c_int32_t), contiguous, intent(in), optional :: layers(:)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t), allocatable :: layers_from_0(:)
+
+    if (size(coordinates, 1) /= 3) then
+      call refuse('set_mixed_mesh: coordinates must be of shape (3, nodes)', stat, errmsg)
+      return
+    else if (size(parts) /= size(types)) then
+      call refuse('set_mixed_mesh: parts must name one part for each element', stat, errmsg)
+      return
+    end if
+    if (present(layers)) then
+      if (size(layers) /= size(types)) then
+        call refuse('set_mixed_mesh: layers must name one layer for each element', stat, errmsg)
+        return
+      end if
+      layers_from_0 = layers - 1_c_int32_t
+    end if
+    call report(cdfp_model_set_mixed_mesh(this%handle%address, size(coordinates, 2, c_int64_t), coordinates, &
+                                          size(types, kind=c_int64_t), types, &
+                                          size(connectivity, kind=c_int64_t), connectivity - 1_c_int32_t, &
+                                          parts - 1_c_int32_t, layers_from_0), stat, errmsg)
   end subroutine
 
   subroutine add_node_set(this, name, nodes, stat, errmsg)
@@ -194,6 +227,22 @@ contains
     integer(c_int64_t), intent(in), optional :: seed
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_add_cohesive_law(this%handle%address, c_text(name), &
+                                            new_cohesive_law(strength, fracture_energy, mode_ratio, shear_ratio, &
+                                                             friction, friction_exponent, internal_friction, &
+                                                             kind, stiffness, weibull_modulus, weibull_area, &
+                                                             seed)), stat, errmsg)
+  end subroutine
+
+  !> The same as a law for the services: `cdfp_cohesive` and the laws at points.
+  function new_cohesive_law(strength, fracture_energy, mode_ratio, shear_ratio, friction, friction_exponent, &
+                            internal_friction, kind, stiffness, weibull_modulus, weibull_area, seed) result(law)
+    real(c_double), intent(in) :: strength, fracture_energy
+    real(c_double), intent(in), optional :: mode_ratio, shear_ratio, friction, friction_exponent
+    real(c_double), intent(in), optional :: internal_friction, stiffness, weibull_modulus, weibull_area
+    integer(c_int32_t), intent(in), optional :: kind
+    integer(c_int64_t), intent(in), optional :: seed
     type(cdfp_cohesive_law) :: law
     integer(c_int32_t) :: status
 
@@ -210,9 +259,7 @@ contains
     law%weibull_modulus = value_or(law%weibull_modulus, weibull_modulus)
     law%weibull_area = value_or(law%weibull_area, weibull_area)
     if (present(seed)) law%seed = seed
-    status = cdfp_model_add_cohesive_law(this%handle%address, c_text(name), law)
-    call report(status, stat, errmsg)
-  end subroutine
+  end function
 
   !> The traction of a CDFP_USER law: `callback` is `c_funloc` of a `bind(c)` subroutine with the arguments
   !> `type(cdfp_cohesive_points), intent(in) :: points` and `type(c_ptr), value :: user_data`. It keeps `states`
@@ -378,6 +425,22 @@ contains
     character(len=*), intent(inout), optional :: errmsg
 
     call report(cdfp_model_set_gravity(this%handle%address, gravity), stat, errmsg)
+  end subroutine
+
+  !> Forces of the program's own: `callback` is `c_funloc` of a `bind(c)` subroutine with the arguments
+  !> `type(cdfp_nodal_load), intent(in) :: load` and `type(c_ptr), value :: user_data`. It is called once a step
+  !> and fills `load%force`, which is 0 at first. Its work is external work.
+  subroutine set_load_callback(this, callback, user_data, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    type(c_funptr), intent(in) :: callback
+    type(c_ptr), intent(in), optional :: user_data
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: user
+
+    user = c_null_ptr
+    if (present(user_data)) user = user_data
+    call report(cdfp_model_set_load_callback(this%handle%address, callback, user), stat, errmsg)
   end subroutine
 
   !> A facet set that may touch others and itself; without any the scene has no contact.

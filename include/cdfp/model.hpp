@@ -160,6 +160,15 @@ struct InitialVelocity {
   std::array<double, 9> gradient{};  ///< 1/s, row by row
 };
 
+/// What a load is asked for at a step. Vectors are (nodes, 3); nodes that cracks made are among them.
+struct NodalLoad {
+  std::int64_t nodes = 0;
+  double time = 0;                   ///< s
+  const double* position = nullptr;  ///< m
+  const double* velocity = nullptr;  ///< m/s, at the half step that led to `position`
+  double* force = nullptr;           ///< out, 0 at first: N
+};
+
 struct ContactSettings {
   std::vector<std::string> surfaces;  ///< facet sets; empty: no contact in the scene
   double cell_factor = 1.0;           ///< w1: cell length over mean segment length
@@ -199,6 +208,9 @@ struct Model {
   std::vector<PrescribedVelocity> prescribed_velocities;
   std::vector<InitialVelocity> initial_velocities;
   std::array<double, 3> gravity{};
+  /// Forces of the caller's own; called once a step, never from two threads at once by one simulation. Their
+  /// work is external work.
+  std::function<void(const NodalLoad&)> load = nullptr;
   ContactSettings contact;
   TimeSettings time;
   OutputSettings output;

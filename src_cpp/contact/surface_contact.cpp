@@ -2,8 +2,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "cdfp/error.hpp"
 #include "contact/stages.hpp"
+#include "core/require.hpp"
 
 namespace cdfp {
 
@@ -68,11 +68,16 @@ Index SurfaceContact::add_segment(const Segment& segment) {
 }
 
 void SurfaceContact::rename(Index element, Index old_node, Index new_node) {
+  require(element >= 0 && old_node >= 0 && new_node >= 0,
+          "element " + std::to_string(element) + " is to name node " + std::to_string(new_node) + " for " +
+              std::to_string(old_node) + "; numbers count from 0");
   stages_->surface.rename(element, old_node, new_node);
 }
 
 void SurfaceContact::split(Index mother, Index copy) {
   Stages& s = *stages_;
+  require(mother >= 0 && copy >= 0, "node " + std::to_string(copy) + " is said to be a copy of node " +
+                                        std::to_string(mother) + "; nodes count from 0");
   const Index from = s.surface.row(mother), to = s.surface.row(copy);
   if (from == kNone || to == kNone || from >= static_cast<Index>(s.holds.size())) return;
   if (s.holds.size() <= static_cast<std::size_t>(to)) s.holds.resize(to + 1);
@@ -86,6 +91,7 @@ void SurfaceContact::split(Index mother, Index copy) {
 
 SurfaceContact::Search SurfaceContact::due(const Arrays& arrays, double step, int threads) {
   Stages& s = *stages_;
+  s.need_nodes(arrays.velocity, "velocity");
   const std::vector<Index>& nodes = s.surface.nodes();
   const std::int64_t count = static_cast<std::int64_t>(nodes.size());
   s.piece_speed.assign((count + kSpeedGrain - 1) / kSpeedGrain, 0);
@@ -109,6 +115,7 @@ SurfaceContact::Search SurfaceContact::due(const Arrays& arrays, double step, in
 
 void SurfaceContact::regular_search(const Arrays& arrays, int threads) {
   Stages& s = *stages_;
+  s.need_nodes(arrays.position, "position");
   s.search.regular(s.view(arrays), threads);
   s.grow_to_surface();
   std::fill(s.has_pairs.begin(), s.has_pairs.end(), 0);
@@ -130,6 +137,7 @@ void SurfaceContact::regular_search(const Arrays& arrays, int threads) {
 
 void SurfaceContact::adaptive_search(const Arrays& arrays) {
   Stages& s = *stages_;
+  s.need_nodes(arrays.position, "position");
   s.search.adaptive(
       s.view(arrays), s.surface.renamed_segments(),
       s.settings.edge_edge ? std::span<const Index>(s.surface.renamed_edges()) : std::span<const Index>());
@@ -138,6 +146,20 @@ void SurfaceContact::adaptive_search(const Arrays& arrays) {
   for (const Index edge : s.search.touched_edge_rows()) s.activate_edge(edge);
   s.hits.resize(s.active_nodes.size());
   s.edge_hits.resize(s.active_edges.size());
+}
+
+void SurfaceContact::Stages::need_nodes(std::span<const double> vectors, const char* name) const {
+  require(vectors.size() % 3 == 0 && vectors.size() / 3 >= static_cast<std::size_t>(surface.node_limit()),
+          std::string("'") + name + "' is of " + std::to_string(vectors.size() / 3) +
+              " nodes, but contact segments name node " + std::to_string(surface.node_limit() - 1) +
+              "; give arrays of all nodes");
+}
+
+std::span<const Index> SurfaceContact::nodes() const {
+  return stages_->surface.nodes();
+}
+std::span<const Index> SurfaceContact::segments() const {
+  return stages_->surface.segments();
 }
 
 Index SurfaceContact::segment_count() const {
