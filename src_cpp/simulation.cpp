@@ -556,6 +556,12 @@ Summary Simulation::Stages::summary() const {
   }
   s.deleted = deleted;
   s.warnings = warnings;
+  for (const Material& m : model.materials) {
+    const auto* user = std::get_if<UserMaterial>(&m.law);
+    if (!user || !user->warnings) continue;
+    for (const std::string& said : user->warnings())
+      s.warnings.push_back("material '" + m.name + "': " + said);
+  }
   if (contact) {
     s.deepest_penetration_m = contact->deepest_penetration();
     for (const SurfaceContact::BodyPair& pair : contact->body_pairs()) {

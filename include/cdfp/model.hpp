@@ -64,7 +64,8 @@ struct UserMaterial {
   /// Several threads may call the law at once. Otherwise one calls it, block after block; the results are the
   /// same bits either way.
   bool thread_safe = false;
-  std::function<void(const MaterialPoints&)> callback;  ///< what it throws ends the step
+  std::function<void(const MaterialPoints&)> callback;           ///< what it throws ends the step
+  std::function<std::vector<std::string>()> warnings = nullptr;  ///< for the summary; may be null
 };
 
 struct Material {
