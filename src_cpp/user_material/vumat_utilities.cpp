@@ -36,9 +36,11 @@ void give_text(const std::string& from, char* text, std::int32_t* count, std::si
 
 std::string real_text(const VumatRun& run, const void* reals, std::size_t i) {
   char text[40];
-  const double value = run.host->single_precision ? double{static_cast<const float*>(reals)[i]}
-                                                  : static_cast<const double*>(reals)[i];
-  std::snprintf(text, sizeof text, "%.9g", value);
+  if (run.host->single_precision) {
+    std::snprintf(text, sizeof text, "%.7g", double{static_cast<const float*>(reals)[i]});
+  } else {
+    std::snprintf(text, sizeof text, "%.9g", static_cast<const double*>(reals)[i]);
+  }
   return text;
 }
 
