@@ -18,6 +18,8 @@ module cdfp
     CDFP_FULL, CDFP_HEXAHEDRON, CDFP_TETRAHEDRON, CDFP_WEDGE, CDFP_PYRAMID, CDFP_COHESIVE_QUADRILATERAL, &
     CDFP_COHESIVE_TRIANGLE, CDFP_LINEAR, CDFP_CAMACHO_ORTIZ, CDFP_BILINEAR, CDFP_USER, CDFP_ELEMENT_MEAN, &
     CDFP_NODAL, cdfp_cohesive_points, cdfp_laminated_plate, cdfp_energies, cdfp_body_state, cdfp_summary
+  use cdfp_c_material, only: cdfp_material_points
+  use cdfp_materials, only: cdfp_material_block, build_material
   use cdfp_meshes, only: cdfp_mesh, default_laminated_plate, assignment(=)
   use cdfp_models, only: cdfp_model, assignment(=)
   use cdfp_simulations, only: cdfp_simulation, cdfp_recorder, assignment(=)
