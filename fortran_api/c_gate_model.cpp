@@ -138,6 +138,8 @@ int32_t cdfp_cohesive_law_default(cdfp_cohesive_law* law) {
             .stiffness = d.stiffness,
             .weibull_modulus = d.weibull_modulus,
             .weibull_area = d.weibull_area,
+            .rate_sensitivity = d.rate_sensitivity,
+            .reference_rate = d.reference_rate,
             .seed = d.seed,
             .kind = static_cast<int32_t>(d.kind)};
   });
@@ -160,7 +162,9 @@ int32_t cdfp_model_add_cohesive_law(cdfp_model* model, const char* name, const c
                                 .stiffness = law->stiffness,
                                 .weibull_modulus = law->weibull_modulus,
                                 .weibull_area = law->weibull_area,
-                                .seed = law->seed});
+                                .seed = law->seed,
+                                .rate_sensitivity = law->rate_sensitivity,
+                                .reference_rate = law->reference_rate});
   });
 }
 

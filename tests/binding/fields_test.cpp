@@ -85,12 +85,12 @@ TEST_F(Fields, PartsAndCohesiveLaws) {
     EXPECT_EQ(formulation, Formulation::full);
     EXPECT_EQ(hourglass, 0.5);
   }
-  const cdfp_cohesive_law given = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, CDFP_USER};
+  const cdfp_cohesive_law given = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 13, 11, CDFP_USER};
   ASSERT_EQ(cdfp_model_add_cohesive_law(handle_, "law", &given), CDFP_OK);
   {
     const auto& [name, strength, fracture_energy, mode_ratio, shear_ratio, friction, friction_exponent,
-                 internal_friction, kind, stiffness, weibull_modulus, weibull_area, seed, states, callback] =
-        model().cohesive_laws.at(0);
+                 internal_friction, kind, stiffness, weibull_modulus, weibull_area, seed, rate_sensitivity,
+                 reference_rate, states, callback] = model().cohesive_laws.at(0);
     EXPECT_EQ(kind, CohesiveKind::user);
     EXPECT_EQ((Vector{stiffness, weibull_modulus, weibull_area}), (Vector{8, 9, 10}));
     EXPECT_EQ(seed, 11);
@@ -100,6 +100,7 @@ TEST_F(Fields, PartsAndCohesiveLaws) {
     EXPECT_EQ((Vector{strength, fracture_energy, mode_ratio}), (Vector{1, 2, 3}));
     EXPECT_EQ((Vector{shear_ratio, friction, friction_exponent}), (Vector{4, 5, 6}));
     EXPECT_EQ(internal_friction, 7);
+    EXPECT_EQ((Vector{rate_sensitivity, reference_rate}), (Vector{12, 13}));
   }
   int asked = 0;
   const auto law = [](const cdfp_cohesive_points* points, void* user_data) {
