@@ -10,7 +10,7 @@ module cdfp_c_model
 
   type, bind(c) :: cdfp_cohesive_law
     real(c_double) :: strength, fracture_energy, mode_ratio, shear_ratio, friction, friction_exponent
-    real(c_double) :: internal_friction, stiffness, weibull_modulus, weibull_area
+    real(c_double) :: internal_friction, stiffness, weibull_modulus, weibull_area, rate_sensitivity, reference_rate
     integer(c_int64_t) :: seed
     integer(c_int32_t) :: kind
   end type
@@ -28,7 +28,7 @@ module cdfp_c_model
   end type
 
   type, bind(c) :: cdfp_contact_settings
-    real(c_double) :: cell_factor, buffer_factor, penalty_factor, friction, depth_limit
+    real(c_double) :: cell_factor, buffer_factor, penalty_factor, friction, depth_limit, penetration_warning
     integer(c_int32_t) :: edge_edge, adaptive
   end type
 

@@ -213,11 +213,13 @@ typedef struct cdfp_cohesive_law {
   double friction;          /**< Coulomb coefficient between closed faces */
   double friction_exponent; /**< of the growth of friction with damage */
   double internal_friction; /**< share of a pressure that holds the shear on a facet back */
-  double stiffness;       /**< Pa/m: of a bilinear law before its strength; steepest slope of a user's law */
-  double weibull_modulus; /**< of the scatter of the strength over facets; 0: none */
-  double weibull_area;    /**< m2 that `strength` belongs to; 0: each facet's own area */
-  int64_t seed;           /**< of the scatter */
-  int32_t kind;           /**< CDFP_LINEAR and the like */
+  double stiffness;        /**< Pa/m: of a bilinear law before its strength; steepest slope of a user's law */
+  double weibull_modulus;  /**< of the scatter of the strength over facets; 0: none */
+  double weibull_area;     /**< m2 that `strength` belongs to; 0: each facet's own area */
+  double rate_sensitivity; /**< c of the factor 1 + c ln(1 + opening rate / reference_rate); 0: none */
+  double reference_rate;   /**< m/s */
+  int64_t seed;            /**< of the scatter */
+  int32_t kind;            /**< CDFP_LINEAR and the like */
 } cdfp_cohesive_law;
 
 int32_t cdfp_cohesive_law_default(cdfp_cohesive_law* law);
@@ -302,13 +304,14 @@ int32_t cdfp_model_set_load_callback(cdfp_model* model, cdfp_load_callback callb
 
 /** What `cdfp_model_get_contact` fills and `cdfp_model_set_contact` takes: get, change what differs, set. */
 typedef struct cdfp_contact_settings {
-  double cell_factor;    /**< w1: cell length over mean segment length */
-  double buffer_factor;  /**< w2: buffer over mean segment length */
-  double penalty_factor; /**< zeta in k = zeta K A^2 / V */
-  double friction;       /**< Coulomb coefficient */
-  double depth_limit;    /**< deepest penetration that counts, over the segment's element height */
-  int32_t edge_edge;     /**< 0: node-face pairs only */
-  int32_t adaptive;      /**< 0: a regular search whenever contact entities are new */
+  double cell_factor;         /**< w1: cell length over mean segment length */
+  double buffer_factor;       /**< w2: buffer over mean segment length */
+  double penalty_factor;      /**< zeta in k = zeta K A^2 / V */
+  double friction;            /**< Coulomb coefficient */
+  double depth_limit;         /**< deepest penetration that counts, over the segment's element height */
+  double penetration_warning; /**< share of that height from which a warning names the pair */
+  int32_t edge_edge;          /**< 0: node-face pairs only */
+  int32_t adaptive;           /**< 0: a regular search whenever contact entities are new */
 } cdfp_contact_settings;
 
 /** A facet set that may touch others and itself; without any the scene has no contact. */
