@@ -263,8 +263,8 @@ void Simulation::Stages::list_stages() {
   if (criterion) {
     add_stage(forces_, "criterion", [this] {
       criterion->find(
-          elements.critical_elements(), topology, nodes.position,
-          [this](Index e) { return elements.stress(e, nodes.position); }, open_, threads);
+          elements.critical_elements(), elements.critical_stresses(nodes.position, threads), topology,
+          nodes.position, [this](Index e) { return elements.stress(e, nodes.position); }, open_, threads);
     });
     add_stage(forces_, "insertion", [this] { insert_open_facets(); });
   }
