@@ -81,9 +81,6 @@ Run run(Mesh mesh) {
     if (way(crack) > 0.98 * far) end = std::max(end, crack.time);
   }
   r.speed = 0.48 * far / (end - half);
-  fprintf(stderr, "steps %ld dt %g wall %g stages ", long(s.step_count()), s.stable_step(),
-          s.summary().wall_s);
-  for (auto& x : s.summary().stages) fprintf(stderr, "%s %g; ", x.name.c_str(), x.seconds);
   return r;
 }
 
