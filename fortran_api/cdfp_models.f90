@@ -2,10 +2,11 @@
 module cdfp_models
   use, intrinsic :: iso_c_binding
   use cdfp_c
+  use cdfp_c_material
   use cdfp_handles
   implicit none
   private
-  public :: cdfp_model, assignment(=)
+  public :: cdfp_model, new_cohesive_law, assignment(=)
 
   !> Names tie the entries together, in any order; `cdfp_simulation` checks them. All arguments are copied.
   !> Numbers of nodes, elements, facets, parts, layers and axes count from 1. Units are SI.
@@ -16,11 +17,16 @@ module cdfp_models
     procedure :: free
     procedure :: set_title
     procedure :: set_mesh
+    procedure :: set_mixed_mesh
     procedure :: add_node_set
     procedure :: add_facet_set
     procedure :: add_elastic_material
     procedure :: add_rate_dependent_material
     procedure :: add_rigid_material
+    procedure :: add_user_material
+    procedure :: add_library_material
+    procedure :: add_vumat_material
+    procedure :: set_state_name
     procedure :: add_cohesive_law
     procedure :: set_cohesive_callback
     procedure :: add_bond
@@ -33,6 +39,7 @@ module cdfp_models
     procedure :: add_prescribed_velocity
     procedure :: add_initial_velocity
     procedure :: set_gravity
+    procedure :: set_load_callback
     procedure :: add_contact_surface
     procedure :: set_contact
     procedure :: set_time
@@ -111,6 +118,37 @@ contains
                                     parts - 1_c_int32_t, layers_from_0), stat, errmsg)
   end subroutine
 
+  !> The same for any bulk elements: `types`: CDFP_TETRAHEDRON and the like; `connectivity`: the corners of all
+  !> elements one after the other.
+  subroutine set_mixed_mesh(this, coordinates, types, connectivity, parts, layers, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    real(c_double), contiguous, intent(in) :: coordinates(:, :)
+    integer(c_int32_t), contiguous, intent(in) :: types(:), connectivity(:), parts(:)
+    integer(c_int32_t), contiguous, intent(in), optional :: layers(:)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t), allocatable :: layers_from_0(:)
+
+    if (size(coordinates, 1) /= 3) then
+      call refuse('set_mixed_mesh: coordinates must be of shape (3, nodes)', stat, errmsg)
+      return
+    else if (size(parts) /= size(types)) then
+      call refuse('set_mixed_mesh: parts must name one part for each element', stat, errmsg)
+      return
+    end if
+    if (present(layers)) then
+      if (size(layers) /= size(types)) then
+        call refuse('set_mixed_mesh: layers must name one layer for each element', stat, errmsg)
+        return
+      end if
+      layers_from_0 = layers - 1_c_int32_t
+    end if
+    call report(cdfp_model_set_mixed_mesh(this%handle%address, size(coordinates, 2, c_int64_t), coordinates, &
+                                          size(types, kind=c_int64_t), types, &
+                                          size(connectivity, kind=c_int64_t), connectivity - 1_c_int32_t, &
+                                          parts - 1_c_int32_t, layers_from_0), stat, errmsg)
+  end subroutine
+
   subroutine add_node_set(this, name, nodes, stat, errmsg)
     class(cdfp_model), intent(in) :: this
     character(len=*), intent(in) :: name
@@ -177,6 +215,115 @@ contains
                                               poissons_ratio), stat, errmsg)
   end subroutine
 
+  !> A material whose law is yours: `callback` is `c_funloc` of a `bind(c)` subroutine with the arguments
+  !> `type(cdfp_material_points), intent(in) :: points` and `type(c_ptr), value :: user_data`; within it
+  !> `cdfp_material_block` shows the points as arrays. It keeps `states` numbers (0 if absent) at each point; a
+  !> point where it makes the state `deletion_state` 0 is deleted. Its first call shows the elastic constants if
+  !> they are absent here. Several threads may call it at once if `thread_safe` (false if absent).
+  subroutine add_user_material(this, name, density, callback, states, properties, youngs_modulus, poissons_ratio, &
+                               deletion_state, thread_safe, user_data, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: name
+    real(c_double), intent(in) :: density
+    type(c_funptr), intent(in) :: callback
+    integer, intent(in), optional :: states, deletion_state
+    real(c_double), target, contiguous, intent(in), optional :: properties(:)
+    real(c_double), intent(in), optional :: youngs_modulus, poissons_ratio
+    logical, intent(in), optional :: thread_safe
+    type(c_ptr), intent(in), optional :: user_data
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: user
+
+    user = c_null_ptr
+    if (present(user_data)) user = user_data
+    call report(cdfp_model_add_user_material(this%handle%address, c_text(name), &
+      filled(density, states, properties, youngs_modulus, poissons_ratio, deletion_state, thread_safe), &
+      callback, user), stat, errmsg)
+  end subroutine
+
+  !> The same by a function of a shared library.
+  subroutine add_library_material(this, name, density, library, function, states, properties, youngs_modulus, &
+                                  poissons_ratio, deletion_state, thread_safe, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: name, library, function
+    real(c_double), intent(in) :: density
+    integer, intent(in), optional :: states, deletion_state
+    real(c_double), target, contiguous, intent(in), optional :: properties(:)
+    real(c_double), intent(in), optional :: youngs_modulus, poissons_ratio
+    logical, intent(in), optional :: thread_safe
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_add_library_material(this%handle%address, c_text(name), &
+      filled(density, states, properties, youngs_modulus, poissons_ratio, deletion_state, thread_safe), &
+      c_text(library), c_text(function)), stat, errmsg)
+  end subroutine
+
+  !> The same by the subroutine VUMAT of a shared library: see `cdfp_build_material`. `temperature` and `fields`
+  !> are what it is given (0 and none if absent), `single_precision`: its reals have four bytes.
+  subroutine add_vumat_material(this, name, density, library, states, properties, youngs_modulus, poissons_ratio, &
+                                deletion_state, thread_safe, temperature, fields, single_precision, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: name, library
+    real(c_double), intent(in) :: density
+    integer, intent(in), optional :: states, deletion_state
+    real(c_double), target, contiguous, intent(in), optional :: properties(:), fields(:)
+    real(c_double), intent(in), optional :: youngs_modulus, poissons_ratio, temperature
+    logical, intent(in), optional :: thread_safe, single_precision
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(cdfp_vumat) :: vumat
+    integer(c_int32_t) :: status
+
+    status = cdfp_vumat_default(vumat)
+    vumat%temperature = value_or(vumat%temperature, temperature)
+    if (present(single_precision)) vumat%single_precision = merge(1_c_int32_t, 0_c_int32_t, single_precision)
+    if (present(fields)) then
+      vumat%fields = c_loc(fields)
+      vumat%field_count = size(fields, kind=c_int64_t)
+    end if
+    status = cdfp_model_add_vumat_material(this%handle%address, c_text(name), &
+      filled(density, states, properties, youngs_modulus, poissons_ratio, deletion_state, thread_safe), &
+      vumat, c_text(library))
+    call report(status, stat, errmsg)
+  end subroutine
+
+  !> Names a state of a user's material in output.
+  subroutine set_state_name(this, material, state, name, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: material, name
+    integer, intent(in) :: state
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_set_state_name(this%handle%address, c_text(material), int(state - 1, c_int32_t), &
+                                          c_text(name)), stat, errmsg)
+  end subroutine
+
+  function filled(density, states, properties, youngs_modulus, poissons_ratio, deletion_state, thread_safe) &
+      result(material)
+    real(c_double), intent(in) :: density
+    integer, intent(in), optional :: states, deletion_state
+    real(c_double), target, contiguous, intent(in), optional :: properties(:)
+    real(c_double), intent(in), optional :: youngs_modulus, poissons_ratio
+    logical, intent(in), optional :: thread_safe
+    type(cdfp_user_material) :: material
+    integer(c_int32_t) :: status
+
+    status = cdfp_user_material_default(material)
+    material%density = density
+    material%youngs_modulus = value_or(material%youngs_modulus, youngs_modulus)
+    material%poissons_ratio = value_or(material%poissons_ratio, poissons_ratio)
+    if (present(properties)) then
+      material%properties = c_loc(properties)
+      material%property_count = size(properties, kind=c_int64_t)
+    end if
+    if (present(states)) material%states = int(states, c_int32_t)
+    if (present(deletion_state)) material%deletion_state = int(deletion_state - 1, c_int32_t)
+    if (present(thread_safe)) material%thread_safe = merge(1_c_int32_t, 0_c_int32_t, thread_safe)
+  end function
+
   !> Cohesive law: strength (Pa), G_I (J/m2), G_II / G_I (1 if absent), peak shear over strength (1), Coulomb
   !> coefficient between closed faces (0), exponent of its growth with damage (1), share of a pressure that
   !> holds the shear on a facet back (0). `kind`: CDFP_LINEAR (if absent), CDFP_CAMACHO_ORTIZ, CDFP_BILINEAR
@@ -196,6 +343,24 @@ contains
     integer(c_int64_t), intent(in), optional :: seed
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_add_cohesive_law(this%handle%address, c_text(name), &
+                                            new_cohesive_law(strength, fracture_energy, mode_ratio, shear_ratio, &
+                                                             friction, friction_exponent, internal_friction, &
+                                                             kind, stiffness, weibull_modulus, weibull_area, &
+                                                             seed, rate_sensitivity, reference_rate)), stat, errmsg)
+  end subroutine
+
+  !> The same as a law for the services: `cdfp_cohesive` and the laws at points.
+  function new_cohesive_law(strength, fracture_energy, mode_ratio, shear_ratio, friction, friction_exponent, &
+                            internal_friction, kind, stiffness, weibull_modulus, weibull_area, seed, &
+                            rate_sensitivity, reference_rate) result(law)
+    real(c_double), intent(in) :: strength, fracture_energy
+    real(c_double), intent(in), optional :: mode_ratio, shear_ratio, friction, friction_exponent
+    real(c_double), intent(in), optional :: internal_friction, stiffness, weibull_modulus, weibull_area
+    real(c_double), intent(in), optional :: rate_sensitivity, reference_rate
+    integer(c_int32_t), intent(in), optional :: kind
+    integer(c_int64_t), intent(in), optional :: seed
     type(cdfp_cohesive_law) :: law
     integer(c_int32_t) :: status
 
@@ -214,9 +379,7 @@ contains
     if (present(seed)) law%seed = seed
     law%rate_sensitivity = value_or(law%rate_sensitivity, rate_sensitivity)
     law%reference_rate = value_or(law%reference_rate, reference_rate)
-    status = cdfp_model_add_cohesive_law(this%handle%address, c_text(name), law)
-    call report(status, stat, errmsg)
-  end subroutine
+  end function
 
   !> The traction of a CDFP_USER law: `callback` is `c_funloc` of a `bind(c)` subroutine with the arguments
   !> `type(cdfp_cohesive_points), intent(in) :: points` and `type(c_ptr), value :: user_data`. It keeps `states`
@@ -384,6 +547,22 @@ contains
     call report(cdfp_model_set_gravity(this%handle%address, gravity), stat, errmsg)
   end subroutine
 
+  !> Forces of the program's own: `callback` is `c_funloc` of a `bind(c)` subroutine with the arguments
+  !> `type(cdfp_nodal_load), intent(in) :: load` and `type(c_ptr), value :: user_data`. It is called once a step
+  !> and fills `load%force`, which is 0 at first. Its work is external work.
+  subroutine set_load_callback(this, callback, user_data, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    type(c_funptr), intent(in) :: callback
+    type(c_ptr), intent(in), optional :: user_data
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: user
+
+    user = c_null_ptr
+    if (present(user_data)) user = user_data
+    call report(cdfp_model_set_load_callback(this%handle%address, callback, user), stat, errmsg)
+  end subroutine
+
   !> A facet set that may touch others and itself; without any the scene has no contact.
   subroutine add_contact_surface(this, facet_set, stat, errmsg)
     class(cdfp_model), intent(in) :: this
@@ -396,9 +575,10 @@ contains
 
   !> What is absent stays as it is: see `cdfp_contact_settings` in cdfp/cdfp.h.
   subroutine set_contact(this, cell_factor, buffer_factor, penalty_factor, friction, depth_limit, edge_edge, &
-                         adaptive, stat, errmsg)
+                         adaptive, penetration_warning, stat, errmsg)
     class(cdfp_model), intent(in) :: this
     real(c_double), intent(in), optional :: cell_factor, buffer_factor, penalty_factor, friction, depth_limit
+    real(c_double), intent(in), optional :: penetration_warning
     logical, intent(in), optional :: edge_edge, adaptive
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
@@ -412,6 +592,7 @@ contains
       settings%penalty_factor = value_or(settings%penalty_factor, penalty_factor)
       settings%friction = value_or(settings%friction, friction)
       settings%depth_limit = value_or(settings%depth_limit, depth_limit)
+      settings%penetration_warning = value_or(settings%penetration_warning, penetration_warning)
       if (present(edge_edge)) settings%edge_edge = merge(1_c_int32_t, 0_c_int32_t, edge_edge)
       if (present(adaptive)) settings%adaptive = merge(1_c_int32_t, 0_c_int32_t, adaptive)
       status = cdfp_model_set_contact(this%handle%address, settings)

@@ -65,6 +65,7 @@ struct Point {
   double stored = 0;   ///< J/m2, by the cohesive traction
   double pressed = 0;  ///< J/m2, stored in contact and the friction spring
   double heat = 0;     ///< J/m2, done against contact and friction, less `pressed`
+  double taken = 0;    ///< J/m2, of `work`, less what was stored, until the facet broke
   double ahead = 0;    ///< J/m2, of the work above: from the step to the half step ahead of it
   double energy = 0;   ///< J/m2 that the law dissipates, over its growth in m
   double by_rate = 0;  ///< J/m2, dissipated by the part of the traction that the rate adds
@@ -89,8 +90,7 @@ struct Facet {
   Index layer = 0;
   std::int32_t corners = 4;
   std::int32_t law = 0;
-  double orientation = 1;  ///< of the corner order against the normal from lower to upper
-  Vec3 normal;
+  Vec3 normal;    ///< from lower to upper
   Vec3 traction;  ///< at insertion
   bool bond = false;
   bool live = false;
@@ -105,31 +105,36 @@ struct Facet {
 
 struct CohesiveZone::Points {
   Points(const Model& model, CohesiveScheme chosen);
+  explicit Points(Index first_element) : scheme(CohesiveScheme::mean_traction), bulk_count(first_element) {}
 
-  void insert(const Topology& topology, const Insertion& insertion, Facet facet, const Nodes& nodes);
+  void add_law(const CohesiveLaw& law);
+  void insert(const Topology& topology, const Insertion& insertion, Facet facet, const NodeArrays& nodes);
+  void place(Facet facet, std::span<const Index> corners, const NodeArrays& nodes);
   std::int32_t law_number(const std::string& name) const;
   void follow(const Insertion& insertion);
   void give_law(Point& point, const Facet& facet);
   void revive(Index facet);
-  void add_force(Nodes& nodes, double step, double time, const Threads& threads);
-  void turn(Index facet, const Nodes& nodes);
-  void ask_users(const Nodes& nodes, double step, double time);
-  FacetFrame frame_of(Index facet, const Nodes& nodes);
-  void balance_couples(Nodes& nodes);
-  void book_couples(const Nodes& nodes, double step);
-  Vec3 couple_now(Index facet, const Nodes& nodes) const;
+  void add_force(const NodeArrays& nodes, double step, double time, const Threads& threads);
+  void turn(Index facet, const NodeArrays& nodes);
+  void ask_users(const NodeArrays& nodes, double step, double time);
+  FacetFrame frame_of(Index facet, const NodeArrays& nodes);
+  void balance_couples(const NodeArrays& nodes);
+  void book_couples(const NodeArrays& nodes, double step);
+  Vec3 couple_now(Index facet, const NodeArrays& nodes) const;
   void find_couples();
-  double yields(const Point& point, const Nodes& nodes, double step) const;
-  void carry(const Clusters::Cluster& cluster, const Nodes& nodes, double step, ClusterSolver& work);
-  void load_tie(Point& point, const Nodes& nodes, double step, ClusterSolver::Point& p) const;
-  void start(Point& point, const Facet& facet, const Nodes& nodes, double step);
-  void solve_cluster(const Clusters::Cluster& cluster, Nodes& nodes, double step, ClusterSolver& work);
-  void load_cluster(const Clusters::Cluster& cluster, const Nodes& nodes, double step,
+  double yields(const Point& point, const NodeArrays& nodes, double step) const;
+  void carry(const Clusters::Cluster& cluster, const NodeArrays& nodes, double step, ClusterSolver& work);
+  void load_tie(Point& point, const NodeArrays& nodes, double step, ClusterSolver::Point& p) const;
+  void start(Point& point, const Facet& facet, const NodeArrays& nodes, double step);
+  void solve_cluster(const Clusters::Cluster& cluster, const NodeArrays& nodes, double step,
+                     ClusterSolver& work);
+  void load_cluster(const Clusters::Cluster& cluster, const NodeArrays& nodes, double step,
                     ClusterSolver& work) const;
   void load_point(const Clusters::Slot& slot, double step, ClusterSolver& work,
                   ClusterSolver::Point& p) const;
   void solve_plain(const Clusters::Cluster& cluster, double step, ClusterSolver& work) const;
-  void store_cluster(const Clusters::Cluster& cluster, Nodes& nodes, double step, ClusterSolver& work);
+  void store_cluster(const Clusters::Cluster& cluster, const NodeArrays& nodes, double step,
+                     ClusterSolver& work);
   double opened_to(const Point& point, const Increment& i, const Split& at, std::int32_t law) const;
   double stored_in(const Point& point, const Increment& i, const Split& at, std::int32_t law) const;
   void mark_broken(double time);
@@ -170,16 +175,7 @@ struct CohesiveZone::Points {
 
 CohesiveZone::Points::Points(const Model& model, CohesiveScheme chosen)
     : scheme(chosen), part_of_element(model.mesh.parts), layer_of_element(model.mesh.layers) {
-  for (const CohesiveLaw& law : model.cohesive_laws) {
-    if (!(law.strength > 0) || !(law.fracture_energy > 0) || !(law.mode_ratio > 0) ||
-        !(law.shear_ratio > 0)) {
-      throw Error(Status::bad_argument, "cohesive law '" + law.name +
-                                            "' needs a positive strength, fracture_energy, mode_ratio and "
-                                            "shear_ratio");
-    }
-    laws.push_back({law, ModeWeights(law)});
-    users.emplace_back(law.states);
-  }
+  for (const CohesiveLaw& law : model.cohesive_laws) add_law(law);
   law_of_part.assign(model.mesh.part_names.size(), -1);
   for (const Part& part : model.parts) {
     if (part.cohesive_law.empty()) continue;
@@ -191,6 +187,16 @@ CohesiveZone::Points::Points(const Model& model, CohesiveScheme chosen)
   }
 }
 
+void CohesiveZone::Points::add_law(const CohesiveLaw& law) {
+  if (!(law.strength > 0) || !(law.fracture_energy > 0) || !(law.mode_ratio > 0) || !(law.shear_ratio > 0)) {
+    throw Error(Status::bad_argument, "cohesive law '" + law.name +
+                                          "' needs a positive strength, fracture_energy, mode_ratio and "
+                                          "shear_ratio");
+  }
+  laws.push_back({law, ModeWeights(law)});
+  users.emplace_back(law.states);
+}
+
 std::int32_t CohesiveZone::Points::law_number(const std::string& name) const {
   const auto law = std::find_if(laws.begin(), laws.end(), [&](const Law& l) { return l.given.name == name; });
   if (law == laws.end()) throw Error(Status::bad_argument, "there is no cohesive law '" + name + "'");
@@ -198,25 +204,22 @@ std::int32_t CohesiveZone::Points::law_number(const std::string& name) const {
 }
 
 void CohesiveZone::Points::insert(const Topology& topology, const Insertion& insertion, Facet facet,
-                                  const Nodes& nodes) {
+                                  const NodeArrays& nodes) {
   bulk_count = topology.bulk_count();
   follow(insertion);
-  const std::span<const Index> corners = topology.nodes(insertion.cohesive_element);
-  const auto f = static_cast<Index>(facets.size());
   facet.element = insertion.cohesive_element;
   facet.part = part_of_element[insertion.lower.element];
   facet.layer = layer_of_element.empty() ? 0 : layer_of_element[insertion.lower.element];
+  place(facet, topology.nodes(insertion.cohesive_element), nodes);
+}
+
+/// `corners`: of the upper face, then of the lower face in its element's outward order.
+void CohesiveZone::Points::place(Facet facet, std::span<const Index> corners, const NodeArrays& nodes) {
+  const auto f = static_cast<Index>(facets.size());
   facet.corners = static_cast<std::int32_t>(corners.size() / 2);
   const Index n = facet.corners;
   std::array<Vec3, 4> middle;
   for (Index c = 0; c < n; ++c) middle[c] = 0.5 * (nodes.x(corners[c]) + nodes.x(corners[c + n]));
-
-  // Outward from the lower element.
-  const FacetNodes outward = topology.facet_nodes(insertion.lower);
-  const Vec3 away = cross(nodes.x(outward.nodes[1]) - nodes.x(outward.nodes[0]),
-                          nodes.x(outward.nodes[n - 1]) - nodes.x(outward.nodes[0]));
-  const Vec3 order = cross(middle[1] - middle[0], middle[n - 1] - middle[0]);
-  facet.orientation = dot(away, order) < 0 ? -1 : 1;
   facets.push_back(facet);
 
   for (Index c = 0; c < 4; ++c) {
@@ -284,14 +287,14 @@ void CohesiveZone::Points::revive(Index facet) {
 }
 
 /// The normal of the middle face as it is now; what the points keep as vectors turns with it.
-void CohesiveZone::Points::turn(Index facet, const Nodes& nodes) {
+void CohesiveZone::Points::turn(Index facet, const NodeArrays& nodes) {
   Facet& f = facets[facet];
   const std::span<const Point> p = points_of(facet);
   const auto middle = [&](int c) { return nodes.x(p[c].upper) + nodes.x(p[c].lower); };
   const Vec3 doubled = f.corners == 4 ? cross(middle(2) - middle(0), middle(3) - middle(1))
                                       : cross(middle(1) - middle(0), middle(2) - middle(0));
   const Vec3 before = f.normal;
-  f.normal = (f.orientation / norm(doubled)) * doubled;
+  f.normal = (1 / norm(doubled)) * doubled;
   if (is_pressed(facet)) f.normal = normalized(before + kPressedTurn * (f.normal - before));
   const Vec3 turns = cross(before, f.normal);
   const double bend = 1 / (1 + dot(before, f.normal));
@@ -307,12 +310,12 @@ void CohesiveZone::Points::turn(Index facet, const Nodes& nodes) {
 }
 
 /// m/Pa: how far the pair's nodes part in half a step.
-double CohesiveZone::Points::yields(const Point& point, const Nodes& nodes, double step) const {
+double CohesiveZone::Points::yields(const Point& point, const NodeArrays& nodes, double step) const {
   return 0.5 * step * step * (1 / nodes.mass[point.upper] + 1 / nodes.mass[point.lower]) * point.area;
 }
 
 /// A spring without limit in place of a pair that has just come to be.
-void CohesiveZone::Points::load_tie(Point& point, const Nodes& nodes, double step,
+void CohesiveZone::Points::load_tie(Point& point, const NodeArrays& nodes, double step,
                                     ClusterSolver::Point& p) const {
   Increment& i = p.increment;
   const double reach = i.softening.reach;
@@ -329,7 +332,7 @@ void CohesiveZone::Points::load_tie(Point& point, const Nodes& nodes, double ste
 /// What pairs that have just come to be must carry for their nodes to go on as one, which is what the mesh
 /// carried there before (Papoulia, Sam, Vavasis 2003). Where several share a node, the tractions that differ
 /// least from those of their facets.
-void CohesiveZone::Points::carry(const Clusters::Cluster& cluster, const Nodes& nodes, double step,
+void CohesiveZone::Points::carry(const Clusters::Cluster& cluster, const NodeArrays& nodes, double step,
                                  ClusterSolver& w) {
   const std::span<const Clusters::Slot> slots = clusters.slots(cluster);
   load_cluster(cluster, nodes, step, w);
@@ -353,7 +356,7 @@ void CohesiveZone::Points::carry(const Clusters::Cluster& cluster, const Nodes& 
 /// A pair that has just come to be carries its traction before it moves: its springs, stiff as its nodes'
 /// inertia asks for, are loaded by that much. The softening line starts at the facet's strength, or at that
 /// traction if it is more, and takes the fracture energy from the nodes.
-void CohesiveZone::Points::start(Point& point, const Facet& facet, const Nodes& nodes, double step) {
+void CohesiveZone::Points::start(Point& point, const Facet& facet, const NodeArrays& nodes, double step) {
   const double soft = yields(point, nodes, step);
   if (scheme == CohesiveScheme::plain) {
     point.contact = kPlainStiffness / soft;
@@ -389,8 +392,8 @@ void CohesiveZone::Points::start(Point& point, const Facet& facet, const Nodes& 
   point.lent = point.stored;
 }
 
-void CohesiveZone::Points::solve_cluster(const Clusters::Cluster& cluster, Nodes& nodes, double step,
-                                         ClusterSolver& w) {
+void CohesiveZone::Points::solve_cluster(const Clusters::Cluster& cluster, const NodeArrays& nodes,
+                                         double step, ClusterSolver& w) {
   const std::span<const Clusters::Slot> slots = clusters.slots(cluster);
   const auto is_new = [this](const Clusters::Slot& slot) { return !(points[slot.point].contact > 0); };
   if (std::any_of(slots.begin(), slots.end(), is_new)) {
@@ -409,15 +412,15 @@ void CohesiveZone::Points::solve_cluster(const Clusters::Cluster& cluster, Nodes
   store_cluster(cluster, nodes, step, w);
 }
 
-void CohesiveZone::Points::load_cluster(const Clusters::Cluster& cluster, const Nodes& nodes, double step,
-                                        ClusterSolver& w) const {
+void CohesiveZone::Points::load_cluster(const Clusters::Cluster& cluster, const NodeArrays& nodes,
+                                        double step, ClusterSolver& w) const {
   const std::span<const Index> members = clusters.nodes(cluster);
   w.nodes.resize(members.size());
   for (std::size_t a = 0; a < members.size(); ++a) {
     const Index n = members[a];
     ClusterSolver::Node& node = w.nodes[a];
-    const double per_mass = nodes.body[n] == kNone ? step / nodes.mass[n] : 0.0;
-    const std::uint8_t fixed = nodes.fixed[n];
+    const double per_mass = step / nodes.mass[n];
+    const std::uint8_t fixed = nodes.held(n);
     node.per_mass = {fixed & 1 ? 0 : per_mass, fixed & 2 ? 0 : per_mass, fixed & 4 ? 0 : per_mass};
     node.behind = nodes.v(n);
     const Vec3 f = nodes.f(n);
@@ -523,8 +526,8 @@ double CohesiveZone::Points::stored_in(const Point& point, const Increment& i, c
 }
 
 /// Forces into the nodes; the points' state and accounts at the half step ahead.
-void CohesiveZone::Points::store_cluster(const Clusters::Cluster& cluster, Nodes& nodes, double step,
-                                         ClusterSolver& w) {
+void CohesiveZone::Points::store_cluster(const Clusters::Cluster& cluster, const NodeArrays& nodes,
+                                         double step, ClusterSolver& w) {
   const std::span<const Index> members = clusters.nodes(cluster);
   for (std::size_t a = 0; a < members.size(); ++a) {
     (-w.nodes[a].load).add_to(&nodes.force[3 * static_cast<std::size_t>(members[a])]);
@@ -567,7 +570,8 @@ void CohesiveZone::Points::store_cluster(const Clusters::Cluster& cluster, Nodes
   }
 }
 
-void CohesiveZone::Points::add_force(Nodes& nodes, double step, double time, const Threads& threads) {
+void CohesiveZone::Points::add_force(const NodeArrays& nodes, double step, double time,
+                                     const Threads& threads) {
   broken_elements.clear();
   ahead_of_closed = 0;
   clusters.update([this](Index p) {
@@ -598,7 +602,7 @@ void CohesiveZone::Points::add_force(Nodes& nodes, double step, double time, con
 }
 
 /// Users' laws say their tractions at the openings of the step, in one call each.
-void CohesiveZone::Points::ask_users(const Nodes& nodes, double step, double time) {
+void CohesiveZone::Points::ask_users(const NodeArrays& nodes, double step, double time) {
   std::vector<UserPoints::Question> questions;
   for (std::size_t law = 0; law < laws.size(); ++law) {
     if (laws[law].given.kind != CohesiveKind::user) continue;
@@ -616,14 +620,14 @@ void CohesiveZone::Points::ask_users(const Nodes& nodes, double step, double tim
   }
 }
 
-FacetFrame CohesiveZone::Points::frame_of(Index facet, const Nodes& nodes) {
+FacetFrame CohesiveZone::Points::frame_of(Index facet, const NodeArrays& nodes) {
   const std::span<const Point> p = points_of(facet);
   for (std::size_t c = 0; c < p.size(); ++c) pairs[c] = {p[c].upper, p[c].lower};
   return FacetFrame({pairs.data(), p.size()}, nodes);
 }
 
 /// N m, of the law's tractions at the openings of the step.
-Vec3 CohesiveZone::Points::couple_now(Index facet, const Nodes& nodes) const {
+Vec3 CohesiveZone::Points::couple_now(Index facet, const NodeArrays& nodes) const {
   const Facet& f = facets[facet];
   const ModeWeights& weights = laws[f.law].weights;
   Vec3 sum;
@@ -647,7 +651,7 @@ Vec3 CohesiveZone::Points::couple_now(Index facet, const Nodes& nodes) const {
 
 /// The tractions' mean over the step is only known when these forces are: what the law at the step's openings
 /// misses of it follows one step later.
-void CohesiveZone::Points::balance_couples(Nodes& nodes) {
+void CohesiveZone::Points::balance_couples(const NodeArrays& nodes) {
   for (Couple& couple : couples) {
     Facet& facet = facets[couple.facet];
     facet.couple = couple_now(couple.facet, nodes);
@@ -664,12 +668,12 @@ void CohesiveZone::Points::balance_couples(Nodes& nodes) {
 }
 
 /// The work of those couples, once the forces of the step are known.
-void CohesiveZone::Points::book_couples(const Nodes& nodes, double step) {
+void CohesiveZone::Points::book_couples(const NodeArrays& nodes, double step) {
   ahead_of_couples = 0;
   const auto kick = [&](Index n) {
-    Vec3 change = nodes.body[n] == kNone ? (step / nodes.mass[n]) * nodes.f(n) : Vec3{};
+    Vec3 change = (step / nodes.mass[n]) * nodes.f(n);
     for (int d = 0; d < 3; ++d) {
-      if (nodes.fixed[n] >> d & 1) change[d] = 0;
+      if (nodes.held(n) >> d & 1) change[d] = 0;
     }
     return change;
   };
@@ -744,6 +748,7 @@ void CohesiveZone::Points::dismiss() {
       Point& point = points[4 * static_cast<std::size_t>(f) + c];
       closed.friction += point.area * (point.stored_by_nodes() + point.pressed);
       ahead_of_closed += point.area * point.ahead;
+      point.taken += point.work - point.stored_by_nodes();
       point.lent = point.growth = point.by_rate = point.work = point.stored = point.pressed = point.heat =
           point.ahead = 0;
       point.slip = point.couple = {};
@@ -768,12 +773,13 @@ CohesiveZone::Energy CohesiveZone::Points::energy_of(Index facet) const {
 
 CohesiveZone::CohesiveZone(const Model& model, CohesiveScheme scheme)
     : points_(std::make_unique<Points>(model, scheme)) {}
+CohesiveZone::CohesiveZone(Index first_element) : points_(std::make_unique<Points>(first_element)) {}
 CohesiveZone::~CohesiveZone() = default;
 CohesiveZone::CohesiveZone(CohesiveZone&&) noexcept = default;
 CohesiveZone& CohesiveZone::operator=(CohesiveZone&&) noexcept = default;
 
 void CohesiveZone::insert(const Topology& topology, const Insertion& insertion, const OpenFacet& facet,
-                          const Nodes& nodes, double time) {
+                          const NodeArrays& nodes, double time) {
   Facet inserted;
   inserted.law = points_->law_of_part[points_->part_of_element[insertion.lower.element]];
   inserted.traction = facet.traction;
@@ -787,14 +793,64 @@ void CohesiveZone::insert(const Topology& topology, const Insertion& insertion, 
 }
 
 void CohesiveZone::insert_bond(const Topology& topology, const Insertion& insertion, const std::string& law,
-                               const Nodes& nodes) {
+                               const NodeArrays& nodes) {
   Facet inserted;
   inserted.law = points_->law_number(law);
   inserted.bond = true;
   points_->insert(topology, insertion, inserted, nodes);
 }
 
-void CohesiveZone::add_force(Nodes& nodes, double step, double time, const Threads& threads) {
+void CohesiveZone::add_law(const CohesiveLaw& law) {
+  points_->add_law(law);
+}
+
+void CohesiveZone::follow(const Insertion& insertion) {
+  points_->follow(insertion);
+}
+
+void CohesiveZone::insert(Index law, std::span<const Index> corners, Vec3 traction, const NodeArrays& nodes,
+                          double time) {
+  Facet inserted;
+  inserted.element = points_->bulk_count + count();
+  inserted.law = law;
+  inserted.traction = traction;
+  inserted.insertion_time = time;
+  points_->place(inserted, corners, nodes);
+}
+
+Index CohesiveZone::first_bad_node(const NodeArrays& nodes) const {
+  for (const Index f : points_->live) {
+    for (const Point& p : points_->points_of(f)) {
+      if (!p.exists()) continue;
+      for (const Index n : {p.upper, p.lower}) {
+        const double moves = dot(nodes.x(n), nodes.x(n)) + dot(nodes.v(n), nodes.v(n));
+        if (!std::isfinite(moves) || !(nodes.mass[n] > 0)) return n;
+      }
+    }
+  }
+  return kNone;
+}
+
+Index CohesiveZone::corner_count(Index facet) const {
+  return points_->facets[facet].corners;
+}
+
+CohesivePointState CohesiveZone::point(Index facet, Index corner) const {
+  const Point& p = points_->points[4 * static_cast<std::size_t>(facet) + corner];
+  CohesivePointState state;
+  state.upper = p.upper;
+  state.lower = p.lower;
+  state.area = p.area;
+  state.strength = p.strength;
+  state.reach = p.softening.reach;
+  state.largest = p.largest;
+  state.damage = p.softening.damage(p.largest);
+  state.stored = p.stored_by_nodes() + p.pressed;
+  state.dissipated = p.taken + p.work - p.stored_by_nodes();
+  return state;
+}
+
+void CohesiveZone::add_force(const NodeArrays& nodes, double step, double time, const Threads& threads) {
   points_->add_force(nodes, step, time, threads);
 }
 
@@ -824,7 +880,7 @@ CohesiveZone::Energy CohesiveZone::energy() const {
   return sum;
 }
 
-double CohesiveZone::stiffness_over_mass(const Nodes& nodes) const {
+double CohesiveZone::stiffness_over_mass(const NodeArrays& nodes) const {
   // Gershgorin: the largest row sum of M^-1 K bounds omega^2 of the springs.
   std::vector<std::pair<Index, double>> sums;
   for (const Index f : points_->live) {

@@ -2,7 +2,7 @@
 
 namespace cdfp {
 
-FacetFrame::FacetFrame(std::span<const NodePair> pairs, const Nodes& nodes) : pairs_(pairs) {
+FacetFrame::FacetFrame(std::span<const NodePair> pairs, const NodeArrays& nodes) : pairs_(pairs) {
   Vec3 centre;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     arm_[c] = 0.5 * (nodes.x(pairs[c].upper) + nodes.x(pairs[c].lower));
@@ -17,7 +17,7 @@ FacetFrame::FacetFrame(std::span<const NodePair> pairs, const Nodes& nodes) : pa
   inverse_inertia_ = inverse(inertia);
 }
 
-void FacetFrame::add_couple(Vec3 couple, Nodes& nodes) const {
+void FacetFrame::add_couple(Vec3 couple, const NodeArrays& nodes) const {
   const Vec3 turn = inverse_inertia_ * couple;
   for (std::size_t c = 0; c < pairs_.size(); ++c) {
     const Vec3 half = 0.5 * cross(turn, arm_[c]);

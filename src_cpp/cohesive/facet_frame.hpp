@@ -16,10 +16,10 @@ namespace cdfp {
 class FacetFrame {
  public:
   /// The frame of the middles of up to four node pairs, as they lie now.
-  FacetFrame(std::span<const NodePair> pairs, const Nodes& nodes);
+  FacetFrame(std::span<const NodePair> pairs, const NodeArrays& nodes);
 
   /// Adds forces with this moment, N m.
-  void add_couple(Vec3 couple, Nodes& nodes) const;
+  void add_couple(Vec3 couple, const NodeArrays& nodes) const;
 
   /// The rotation that displacements of the nodes stand for, as a couple's work tells it: work = couple .
   /// spin.

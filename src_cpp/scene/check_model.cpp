@@ -1,30 +1,16 @@
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string>
 #include <variant>
 
-#include "cdfp/error.hpp"
+#include "cohesive/check_law.hpp"
+#include "core/require.hpp"
 #include "scene/scene.hpp"
 
 namespace cdfp {
 
 namespace {
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(Status::bad_argument, message);
-}
-
-void require(bool holds, const std::string& message) {
-  if (!holds) refuse(message);
-}
-
-void require_positive(double value, const std::string& what) {
-  require(std::isfinite(value) && value > 0, what + " is " + std::to_string(value) + "; it must be positive");
-}
-
-void require_not_negative(double value, const std::string& what) {
-  require(std::isfinite(value) && value >= 0,
-          what + " is " + std::to_string(value) + "; it must not be negative");
-}
 
 void require_finite(const std::array<double, 3>& value, const std::string& what) {
   for (const double v : value) require(std::isfinite(v), what + " is not a finite number");
@@ -34,6 +20,40 @@ void check_poisson(double nu, const std::string& where) {
   require(nu > -1 && nu < 0.5,
           where + ": poissons_ratio is " + std::to_string(nu) +
               "; it must lie between -1 and 0.5 (0.49 for a nearly incompressible material)");
+}
+
+/// It names an array in files for others' programs, next to those that are always there.
+void check_state_name(const std::string& name, const std::string& where) {
+  const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
+  });
+  require(plain, where + ": state name '" + name + "' may hold letters, digits, '_', '-' and '.' only");
+  for (const char* taken : {"part", "velocity", "von_mises", "max_principal", "deleted"}) {
+    require(name != taken, where + ": state name '" + name + "' is an output's already; take another");
+  }
+  require(!name.starts_with("stress_"), where + ": state names that start with 'stress_' are the stress's");
+}
+
+void check_user_material(const UserMaterial& law, const std::string& where) {
+  require(law.callback != nullptr, where + ": a user material needs a callback");
+  require(law.states >= 0, where + ": states must not be negative");
+  require(std::isfinite(law.youngs_modulus) && law.youngs_modulus >= 0,
+          where + ": youngs_modulus must not be negative (0: as the law's first call shows)");
+  require(law.youngs_modulus > 0 || law.poissons_ratio == 0,
+          where + ": poissons_ratio means nothing without youngs_modulus; give both or neither");
+  require(law.deletion_state >= -1 && law.deletion_state < law.states,
+          where + ": deletion_state is " + std::to_string(law.deletion_state) + "; the law has states 0 to " +
+              std::to_string(law.states - 1) + " (-1: none deletes)");
+  require(law.state_names.size() <= static_cast<std::size_t>(law.states),
+          where + ": there are more state_names (" + std::to_string(law.state_names.size()) +
+              ") than states (" + std::to_string(law.states) + ")");
+  for (std::size_t i = 0; i < law.state_names.size(); ++i) {
+    check_state_name(law.state_names[i], where);
+    require(std::find(law.state_names.begin(), law.state_names.begin() + static_cast<std::ptrdiff_t>(i),
+                      law.state_names[i]) == law.state_names.begin() + static_cast<std::ptrdiff_t>(i),
+            where + ": two states are named '" + law.state_names[i] + "'");
+  }
+  for (const double p : law.properties) require(std::isfinite(p), where + ": a property is not finite");
 }
 
 void check_material(const Material& m) {
@@ -48,56 +68,13 @@ void check_material(const Material& m) {
           require(law.rate_modulus >= 0, where + ": rate_modulus must not be negative");
           require(law.rate_exponent >= 0, where + ": rate_exponent must not be negative");
           require_positive(law.smoothing_time, where + ": smoothing_time");
+        } else if constexpr (std::is_same_v<Law, UserMaterial>) {
+          check_user_material(law, where);
         } else {
           require_positive(law.youngs_modulus, where + ": youngs_modulus");
         }
       },
       m.law);
-}
-
-void check_law(const CohesiveLaw& law) {
-  const std::string where = "cohesive law '" + law.name + "'";
-  require_positive(law.strength, where + ": strength");
-  require_positive(law.fracture_energy, where + ": fracture_energy");
-  require_positive(law.mode_ratio, where + ": mode_ratio");
-  require_positive(law.shear_ratio, where + ": shear_ratio");
-  require_not_negative(law.friction, where + ": friction");
-  require_positive(law.friction_exponent, where + ": friction_exponent");
-  require_not_negative(law.internal_friction, where + ": internal_friction");
-  require_not_negative(law.weibull_modulus, where + ": weibull_modulus");
-  require_not_negative(law.weibull_area, where + ": weibull_area");
-  require(law.weibull_area == 0 || law.weibull_modulus > 0,
-          where + ": weibull_area means nothing without scatter; give weibull_modulus or leave it out");
-  require_not_negative(law.rate_sensitivity, where + ": rate_sensitivity");
-  require_not_negative(law.reference_rate, where + ": reference_rate");
-  require(
-      (law.rate_sensitivity > 0) == (law.reference_rate > 0),
-      where + ": rate_sensitivity and reference_rate mean nothing without one another; give both or none");
-  const bool user = law.kind == CohesiveKind::user;
-  require(
-      !user || law.rate_sensitivity == 0,
-      where + ": rate_sensitivity is not of user laws; they are told the step and may keep the last opening");
-  const bool bilinear = law.kind == CohesiveKind::bilinear;
-  require(
-      law.kind != CohesiveKind::camacho_ortiz || law.mode_ratio == 1,
-      where + ": camacho_ortiz has a potential for mode_ratio 1 only; leave mode_ratio out or take linear");
-  if (user) require(law.callback != nullptr, where + ": a user law needs a callback");
-  require(user || (!law.callback && law.states == 0),
-          where + ": callback and states are of user laws only; set its kind to user");
-  require(law.states >= 0, where + ": states must not be negative");
-  if (bilinear) {
-    require_positive(law.stiffness, where + ": stiffness");
-    const double least = law.strength * law.strength / (2 * law.fracture_energy);
-    require(law.stiffness > least,
-            where + ": stiffness is " + std::to_string(law.stiffness) + " Pa/m; above " +
-                std::to_string(least) +
-                " (strength^2 / 2 fracture_energy) the bond softens after its strength");
-  } else {
-    require_not_negative(law.stiffness, where + ": stiffness");
-    require(
-        user || law.stiffness == 0,
-        where + ": stiffness is of bilinear and user laws only; an extrinsic law is rigid until it opens");
-  }
 }
 
 void check_bonds(const Model& model) {
@@ -212,6 +189,7 @@ void check_settings(const Model& model) {
   require_positive(c.buffer_factor, "contact: buffer_factor");
   require_positive(c.penalty_factor, "contact: penalty_factor");
   require_positive(c.depth_limit, "contact: depth_limit");
+  require_positive(c.penetration_warning, "contact: penetration_warning");
   require(c.friction >= 0, "contact: friction must not be negative");
   require_positive(model.time.end, "time: end");
   require(model.time.fixed_step >= 0,

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Holds fortran_api/cdfp_c.f90 against include/cdfp/cdfp.h: functions, arguments by name, order, kind, `const` and
+"""Holds the modules fortran_api/cdfp_c*.f90 against include/cdfp/cdfp.h: functions, arguments by name, order, kind, `const` and
 `value`, structs by member, constants; and every function against the symbols of the library.
 
-    door_drift.py HEADER INTERFACES FORTRAN_COMPILER NM LIBRARY
+    door_drift.py HEADER FORTRAN_COMPILER NM LIBRARY INTERFACES...
 """
 import pathlib
 import re
@@ -112,9 +112,10 @@ DRIFT = [
 
 
 def main():
-    header_path, source_path, compiler, nm, library = sys.argv[1:]
+    header_path, compiler, nm, library, *source_paths = sys.argv[1:]
     header = pathlib.Path(header_path).read_text()
-    source = pathlib.Path(source_path).read_text()
+    source = "".join(pathlib.Path(path).read_text() for path in source_paths)
+    header += (pathlib.Path(header_path).parent / "material.h").read_text()
     faults = differences(header, source, compiler)
 
     for what, old, new in DRIFT:
