@@ -162,6 +162,20 @@ int32_t cdfp_simulation_masses(const cdfp_simulation* simulation, const double**
   return guarded(__func__, [&] { show(Look(simulation)->masses(), 1, masses, nodes, "masses"); });
 }
 
+int32_t cdfp_simulation_get_stresses(const cdfp_simulation* simulation, int64_t elements, double* stress) {
+  return guarded(__func__, [&] {
+    const Look s(simulation);
+    need_array(stress, elements, "stress");
+    const auto count = static_cast<int64_t>(s->model().mesh.types.size());
+    if (elements != count) {
+      refuse("'stress' has room for " + std::to_string(elements) + " elements; the simulation has " +
+             std::to_string(count));
+    }
+    const std::vector<double> all = s->stresses();
+    std::copy(all.begin(), all.end(), stress);
+  });
+}
+
 int32_t cdfp_simulation_set_positions(cdfp_simulation* simulation, int64_t nodes, const double* positions) {
   return guarded(__func__,
                  [&] { Change(simulation)->set_positions(vectors(positions, nodes, "positions")); });

@@ -147,6 +147,14 @@ module cdfp_c_simulation
       integer(c_int32_t) :: status
     end function
 
+    function cdfp_simulation_get_stresses(simulation, elements, stress) bind(c) result(status)
+      import
+      type(c_ptr), value :: simulation
+      integer(c_int64_t), value :: elements
+      real(c_double), intent(inout) :: stress(*)
+      integer(c_int32_t) :: status
+    end function
+
     function cdfp_simulation_set_positions(simulation, nodes, positions) bind(c) result(status)
       import
       type(c_ptr), value :: simulation

@@ -31,6 +31,7 @@ module cdfp_simulations
     procedure :: velocities
     procedure :: forces
     procedure :: masses
+    procedure :: get_stresses
     procedure :: body_count
     procedure :: body
     procedure :: cohesive_count
@@ -293,6 +294,21 @@ contains
     if (status == CDFP_OK) call c_f_pointer(data, m, [nodes])
     call report(status, stat, errmsg)
   end function
+
+  !> Cauchy stress, mean over each element, into `stress` (6, elements): xx yy zz xy yz zx, Pa.
+  subroutine get_stresses(this, stress, stat, errmsg)
+    class(cdfp_simulation), intent(in) :: this
+    real(c_double), contiguous, intent(inout) :: stress(:, :)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    if (size(stress, 1) /= 6) then
+      call refuse('get_stresses: stress must be of shape (6, elements)', stat, errmsg)
+      return
+    end if
+    call report(cdfp_simulation_get_stresses(this%handle%address, size(stress, 2, c_int64_t), stress), stat, &
+                errmsg)
+  end subroutine
 
   function vectors(ask, this, stat, errmsg) result(view)
     procedure(ask_nodes) :: ask
