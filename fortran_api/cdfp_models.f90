@@ -2,6 +2,7 @@
 module cdfp_models
   use, intrinsic :: iso_c_binding
   use cdfp_c
+  use cdfp_c_material
   use cdfp_handles
   implicit none
   private
@@ -22,6 +23,10 @@ module cdfp_models
     procedure :: add_elastic_material
     procedure :: add_rate_dependent_material
     procedure :: add_rigid_material
+    procedure :: add_user_material
+    procedure :: add_library_material
+    procedure :: add_vumat_material
+    procedure :: set_state_name
     procedure :: add_cohesive_law
     procedure :: set_cohesive_callback
     procedure :: add_bond
@@ -209,6 +214,115 @@ contains
     call report(cdfp_model_add_rigid_material(this%handle%address, c_text(name), density, youngs_modulus, &
                                               poissons_ratio), stat, errmsg)
   end subroutine
+
+  !> A material whose law is yours: `callback` is `c_funloc` of a `bind(c)` subroutine with the arguments
+  !> `type(cdfp_material_points), intent(in) :: points` and `type(c_ptr), value :: user_data`; within it
+  !> `cdfp_material_block` shows the points as arrays. It keeps `states` numbers (0 if absent) at each point; a
+  !> point where it makes the state `deletion_state` 0 is deleted. Its first call shows the elastic constants if
+  !> they are absent here. Several threads may call it at once if `thread_safe` (false if absent).
+  subroutine add_user_material(this, name, density, callback, states, properties, youngs_modulus, poissons_ratio, &
+                               deletion_state, thread_safe, user_data, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: name
+    real(c_double), intent(in) :: density
+    type(c_funptr), intent(in) :: callback
+    integer, intent(in), optional :: states, deletion_state
+    real(c_double), target, contiguous, intent(in), optional :: properties(:)
+    real(c_double), intent(in), optional :: youngs_modulus, poissons_ratio
+    logical, intent(in), optional :: thread_safe
+    type(c_ptr), intent(in), optional :: user_data
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: user
+
+    user = c_null_ptr
+    if (present(user_data)) user = user_data
+    call report(cdfp_model_add_user_material(this%handle%address, c_text(name), &
+      filled(density, states, properties, youngs_modulus, poissons_ratio, deletion_state, thread_safe), &
+      callback, user), stat, errmsg)
+  end subroutine
+
+  !> The same by a function of a shared library.
+  subroutine add_library_material(this, name, density, library, function, states, properties, youngs_modulus, &
+                                  poissons_ratio, deletion_state, thread_safe, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: name, library, function
+    real(c_double), intent(in) :: density
+    integer, intent(in), optional :: states, deletion_state
+    real(c_double), target, contiguous, intent(in), optional :: properties(:)
+    real(c_double), intent(in), optional :: youngs_modulus, poissons_ratio
+    logical, intent(in), optional :: thread_safe
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_add_library_material(this%handle%address, c_text(name), &
+      filled(density, states, properties, youngs_modulus, poissons_ratio, deletion_state, thread_safe), &
+      c_text(library), c_text(function)), stat, errmsg)
+  end subroutine
+
+  !> The same by the subroutine VUMAT of a shared library: see `cdfp_build_material`. `temperature` and `fields`
+  !> are what it is given (0 and none if absent), `single_precision`: its reals have four bytes.
+  subroutine add_vumat_material(this, name, density, library, states, properties, youngs_modulus, poissons_ratio, &
+                                deletion_state, thread_safe, temperature, fields, single_precision, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: name, library
+    real(c_double), intent(in) :: density
+    integer, intent(in), optional :: states, deletion_state
+    real(c_double), target, contiguous, intent(in), optional :: properties(:), fields(:)
+    real(c_double), intent(in), optional :: youngs_modulus, poissons_ratio, temperature
+    logical, intent(in), optional :: thread_safe, single_precision
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(cdfp_vumat) :: vumat
+    integer(c_int32_t) :: status
+
+    status = cdfp_vumat_default(vumat)
+    vumat%temperature = value_or(vumat%temperature, temperature)
+    if (present(single_precision)) vumat%single_precision = merge(1_c_int32_t, 0_c_int32_t, single_precision)
+    if (present(fields)) then
+      vumat%fields = c_loc(fields)
+      vumat%field_count = size(fields, kind=c_int64_t)
+    end if
+    status = cdfp_model_add_vumat_material(this%handle%address, c_text(name), &
+      filled(density, states, properties, youngs_modulus, poissons_ratio, deletion_state, thread_safe), &
+      vumat, c_text(library))
+    call report(status, stat, errmsg)
+  end subroutine
+
+  !> Names a state of a user's material in output.
+  subroutine set_state_name(this, material, state, name, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    character(len=*), intent(in) :: material, name
+    integer, intent(in) :: state
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_set_state_name(this%handle%address, c_text(material), int(state - 1, c_int32_t), &
+                                          c_text(name)), stat, errmsg)
+  end subroutine
+
+  function filled(density, states, properties, youngs_modulus, poissons_ratio, deletion_state, thread_safe) &
+      result(material)
+    real(c_double), intent(in) :: density
+    integer, intent(in), optional :: states, deletion_state
+    real(c_double), target, contiguous, intent(in), optional :: properties(:)
+    real(c_double), intent(in), optional :: youngs_modulus, poissons_ratio
+    logical, intent(in), optional :: thread_safe
+    type(cdfp_user_material) :: material
+    integer(c_int32_t) :: status
+
+    status = cdfp_user_material_default(material)
+    material%density = density
+    material%youngs_modulus = value_or(material%youngs_modulus, youngs_modulus)
+    material%poissons_ratio = value_or(material%poissons_ratio, poissons_ratio)
+    if (present(properties)) then
+      material%properties = c_loc(properties)
+      material%property_count = size(properties, kind=c_int64_t)
+    end if
+    if (present(states)) material%states = int(states, c_int32_t)
+    if (present(deletion_state)) material%deletion_state = int(deletion_state - 1, c_int32_t)
+    if (present(thread_safe)) material%thread_safe = merge(1_c_int32_t, 0_c_int32_t, thread_safe)
+  end function
 
   !> Cohesive law: strength (Pa), G_I (J/m2), G_II / G_I (1 if absent), peak shear over strength (1), Coulomb
   !> coefficient between closed faces (0), exponent of its growth with damage (1), share of a pressure that

@@ -2,6 +2,7 @@
 module cdfp_simulations
   use, intrinsic :: iso_c_binding
   use cdfp_c
+  use cdfp_c_material
   use cdfp_handles
   use cdfp_models
   implicit none
@@ -36,6 +37,7 @@ module cdfp_simulations
     procedure :: body
     procedure :: cohesive_count
     procedure :: broken_count
+    procedure :: element_field
     procedure :: energies
     procedure :: summary
     procedure :: first_crack
@@ -368,6 +370,19 @@ contains
     broken = 0
     call report(cdfp_simulation_cohesive_count(this%handle%address, inserted, broken), stat, errmsg)
   end function
+
+  !> A number of each element, in `values` of their count: 'von_mises' or 'max_principal' (Pa), or with users'
+  !> materials a state by its name, 'stress_xx' and the like, 'deleted'. NaN where an element has none.
+  subroutine element_field(this, name, values, stat, errmsg)
+    class(cdfp_simulation), intent(in) :: this
+    character(len=*), intent(in) :: name
+    real(c_double), contiguous, intent(inout) :: values(:)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_simulation_element_field(this%handle%address, c_text(name), size(values, kind=c_int64_t), &
+                                              values), stat, errmsg)
+  end subroutine
 
   function energies(this, stat, errmsg) result(now)
     class(cdfp_simulation), intent(in) :: this

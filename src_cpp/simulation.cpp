@@ -3,6 +3,7 @@
 //   stage            | reads                        | writes
 //   -----------------+------------------------------+-------------------------------------------
 //   drift            | velocity                     | position, rigid bodies; force = 0
+//   material         | position, users' laws        | stress of users' laws, deleted elements
 //   internal_force   | position, material state     | force, material state, critical elements
 //   criterion        | critical elements, stress    | facets that open
 //   insertion        | facets that open             | topology, nodes, element corners, cohesive elements
@@ -23,9 +24,12 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "cdfp/error.hpp"
@@ -96,6 +100,7 @@ struct Simulation::Stages {
   double step_size = 0;
   double kick = 0;  ///< span of the last change of velocity
   StepBound stable;
+  std::vector<Summary::Deleted> deleted;
   double external_work = 0;
   double initial_energy = 0;
   double wall_seconds = 0;
@@ -110,6 +115,8 @@ struct Simulation::Stages {
   void add_stage(std::vector<Stage>& list, const char* name, std::function<void()> work) {
     list.push_back({clock.add(name), std::move(work)});
   }
+  void take_shown_elasticity();
+  void add_user_fields(Frame& f) const;
   void list_stages();
   void run(const std::vector<Stage>& list) {
     for (const Stage& stage : list) clock.time(stage.clock, stage.work);
@@ -185,6 +192,7 @@ Simulation::Stages::Stages(Model given)
       nodes_initial(model.mesh.node_count()),
       connectivity_(model.mesh.connectivity),
       first_corner_(first_corners(model.mesh)) {
+  take_shown_elasticity();
   elements.add_mass(nodes.mass);
   for (Index n = 0; n < nodes.count(); ++n) {
     if (nodes.mass[n] == 0) nodes.fixed[n] = 7;
@@ -217,6 +225,19 @@ Simulation::Stages::Stages(Model given)
   record();
 }
 
+/// Users' materials whose elastic constants their laws have shown.
+void Simulation::Stages::take_shown_elasticity() {
+  for (const Part& part : model.parts) {
+    for (Material& m : model.materials) {
+      auto* user = std::get_if<UserMaterial>(&m.law);
+      if (m.name != part.material || !user || user->youngs_modulus > 0) continue;
+      const ElementForce::Elasticity shown = elements.shown_elasticity(part_number(model.mesh, part.name));
+      user->youngs_modulus = shown.youngs_modulus;
+      user->poissons_ratio = shown.poissons_ratio;
+    }
+  }
+}
+
 void Simulation::Stages::list_stages() {
   if (has_gravity()) {
     add_stage(move_, "gravity_work", [this] {
@@ -229,13 +250,21 @@ void Simulation::Stages::list_stages() {
     drift(step_size, nodes, threads);
     for (RigidMotion& body : bodies) body.drift(step_size, nodes);
   });
+  if (elements.has_user_laws()) {
+    add_stage(move_, "material", [this] {
+      const double end = time + step_size;
+      for (const Index e : elements.advance_user_laws(nodes.position, end, step_size, threads)) {
+        deleted.push_back({e, model.mesh.part_names[model.mesh.parts[e]], end});
+      }
+    });
+  }
   add_stage(forces_, "internal_force",
             [this] { elements.add_force(nodes.position, nodes.force, step_size, threads); });
   if (criterion) {
     add_stage(forces_, "criterion", [this] {
       criterion->find(
           elements.critical_elements(), topology, nodes.position,
-          [this](Index e) { return elements.stress(e, nodes.position); }, open_);
+          [this](Index e) { return elements.stress(e, nodes.position); }, open_, threads);
     });
     add_stage(forces_, "insertion", [this] { insert_open_facets(); });
   }
@@ -519,7 +548,48 @@ Frame Simulation::Stages::frame() const {
       f.max_principal[e] = max_principal(s);
     }
   });
+  if (elements.has_user_laws()) add_user_fields(f);
   return f;
+}
+
+/// States of users' laws by name; laws that give one name to a state of theirs share the field. Stress by
+/// component, and what has been deleted.
+void Simulation::Stages::add_user_fields(Frame& f) const {
+  const auto count = static_cast<std::size_t>(model.mesh.element_count());
+  const auto field = [&](const std::string& name, double start) -> std::vector<double>& {
+    for (ElementField& known : f.fields) {
+      if (known.name == name) return known.values;
+    }
+    return f.fields.emplace_back(name, std::vector<double>(count, start)).values;
+  };
+  const std::vector<const Part*> parts = parts_in_order(model);
+  bool deletes = false;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto* law = std::get_if<UserMaterial>(&material(model, parts[p]->material).law);
+    if (!law) continue;
+    deletes = deletes || law->deletion_state >= 0;
+    for (int k = 0; k < law->states; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      std::vector<double>& values =
+          field(at < law->state_names.size() ? law->state_names[at] : "state_" + std::to_string(k + 1),
+                std::numeric_limits<double>::quiet_NaN());
+      for (std::size_t e = 0; e < count; ++e) {
+        if (model.mesh.parts[e] == static_cast<Index>(p))
+          values[e] = elements.mean_state(static_cast<Index>(e), k);
+      }
+    }
+  }
+  static constexpr std::tuple<const char*, int, int> kComponents[] = {
+      {"stress_xx", 0, 0}, {"stress_yy", 1, 1}, {"stress_zz", 2, 2},
+      {"stress_xy", 0, 1}, {"stress_yz", 1, 2}, {"stress_zx", 2, 0}};
+  for (const auto& [name, i, j] : kComponents) {
+    std::vector<double>& values = field(name, 0);
+    for (std::size_t e = 0; e < count; ++e)
+      values[e] = elements.stress(static_cast<Index>(e), nodes.position)(i, j);
+  }
+  if (!deletes) return;
+  std::vector<double>& gone = field("deleted", 0);
+  for (const Summary::Deleted& d : deleted) gone[static_cast<std::size_t>(d.element)] = 1;
 }
 
 Summary Simulation::Stages::summary() const {
@@ -550,7 +620,14 @@ Summary Simulation::Stages::summary() const {
     const Vec3 before = Vec3::load(model.rigid_bodies.front().velocity.data());
     if (norm(before) > 0) s.impactor_rebound_mps = -dot(bodies.front().velocity(), normalized(before));
   }
+  s.deleted = deleted;
   s.warnings = warnings;
+  for (const Material& m : model.materials) {
+    const auto* user = std::get_if<UserMaterial>(&m.law);
+    if (!user || !user->warnings) continue;
+    for (const std::string& said : user->warnings())
+      s.warnings.push_back("material '" + m.name + "': " + said);
+  }
   if (contact) {
     s.deepest_penetration_m = contact->deepest_penetration();
     for (const SurfaceContact::BodyPair& pair : contact->body_pairs()) {

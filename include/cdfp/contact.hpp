@@ -35,17 +35,38 @@ class PairRows {
   void compress(std::vector<Index>& start, std::vector<Index>& partners) const;
   std::size_t memory() const;
 
-  /// The rows of one partner after another: those of the i-th end at `end[i]`.
-  struct Found {
-    std::vector<Index> rows;
-    std::vector<std::size_t> end;
-    void reset(std::int64_t partners) {
-      rows.clear();
-      end.resize(static_cast<std::size_t>(partners));
+  /// What one thread found for its share of the partners, one partner after another.
+  class Found {
+   public:
+    /// Of `partners` from `first` on.
+    void start(Index first, Index partners, Index rows);
+    /// The rows of the next partners go to `room()`, up to `room_size()` of them.
+    Index* room() { return rows_.data() + count_; }
+    std::size_t room_size() const { return rows_.size() - count_; }
+    void make_room();
+    /// `count` rows were written there; those of the i-th partner of them end at `ends[i]`.
+    void took(std::size_t count, std::span<const Index> ends);
+    void add(Index row) {
+      if (count_ == rows_.size()) make_room();
+      rows_[count_++] = row;
+      ++row_counts_[row];
     }
+    void end_partner() { ends_.push_back(static_cast<Index>(count_)); }
+    std::size_t memory() const {
+      return (rows_.capacity() + ends_.capacity() + row_counts_.capacity()) * sizeof(Index);
+    }
+
+   private:
+    friend class PairRows;
+    Index first_ = 0, partners_ = 0;
+    std::vector<Index> rows_;        // as long as its use so far; the first `count_` of them hold
+    std::vector<Index> ends_;        // of the partners
+    std::vector<Index> row_counts_;  // then where each row goes on
+    std::size_t count_ = 0;
   };
-  /// Starts anew from what was found, piece after piece; the first partner is 0.
-  void assign(Index rows, std::span<const Found> pieces);
+  /// Starts anew from what was found, share after share; the first partner is 0. Throws
+  /// `Error(bad_argument)` if there are more pairs than 32 bits count.
+  void assign(Index rows, std::span<Found> shares);
   void add_rows(Index count) { head_.resize(head_.size() + count, kNone); }
   void add(Index row, Index partner) {
     const Index next = head_[row];

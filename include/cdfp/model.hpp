@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "cdfp/material.h"
 #include "cdfp/mesh.hpp"
 #include "cdfp/types.hpp"
 
@@ -42,9 +43,34 @@ struct RigidMaterial {
   double poissons_ratio = 0;
 };
 
+/// A block of material points, as a user's law sees it.
+using MaterialPoints = cdfp_material_points;
+
+/// A law of the user's. It is called for blocks of points: once at time 0 with a tiny strain increment
+/// (`MaterialPoints::start`), whose stress shows the elastic constants and is dropped while its state is
+/// kept, and then once a step.
+struct UserMaterial {
+  double density = 0;  ///< kg/m3
+  /// For the stiffness of hourglass modes and contact. 0: as the first call shows, where the stable step also
+  /// has them from; a law that answers nothing there needs them.
+  double youngs_modulus = 0;  ///< Pa
+  double poissons_ratio = 0;
+  int states = 0;  ///< numbers kept at each point, 0 at the start
+  std::vector<double> properties;
+  std::vector<std::string> state_names;  ///< in output; those left out are state_1, state_2 ...
+  /// Number of the state (from 0) that deletes: a point where the law makes it 0 carries no stress from then
+  /// on, and an element all of whose points have gone is deleted. It is 1 at the start. -1: none.
+  int deletion_state = -1;
+  /// Several threads may call the law at once. Otherwise one calls it, block after block; the results are the
+  /// same bits either way.
+  bool thread_safe = false;
+  std::function<void(const MaterialPoints&)> callback;           ///< what it throws ends the step
+  std::function<std::vector<std::string>()> warnings = nullptr;  ///< for the summary; may be null
+};
+
 struct Material {
   std::string name;
-  std::variant<ElasticMaterial, RateDependentMaterial, RigidMaterial> law;
+  std::variant<ElasticMaterial, RateDependentMaterial, RigidMaterial, UserMaterial> law;
 };
 
 enum class Formulation {
@@ -176,6 +202,7 @@ struct ContactSettings {
   double penalty_factor = 1.0;        ///< zeta in k = zeta K A^2 / V
   double friction = 0;                ///< Coulomb coefficient
   double depth_limit = 0.5;           ///< deepest penetration that counts, over the segment's element height
+  double penetration_warning = 0.1;   ///< share of that height from which a warning names the pair
   bool edge_edge = true;
   bool adaptive = true;  ///< false: a regular search whenever contact entities are new
 };

@@ -47,6 +47,12 @@ struct CrackFacet {
   double broken_time = std::numeric_limits<double>::infinity();
 };
 
+/// A number of each element; NaN where it has none.
+struct ElementField {
+  std::string name;
+  std::vector<double> values;
+};
+
 /// One state. The spans belong to the simulation and hold until it steps on.
 struct Frame {
   double time = 0;
@@ -59,6 +65,9 @@ struct Frame {
   std::span<const Index> parts;         ///< one an element
   std::vector<double> von_mises;        ///< Pa, one an element
   std::vector<double> max_principal;    ///< Pa, one an element
+  /// With users' materials: their states by name (means over an element's points), the Cauchy stress
+  /// (stress_xx ...), and `deleted`, 1 where a state has deleted the element.
+  std::vector<ElementField> fields;
   std::vector<CrackFacet> cracks;
   std::vector<std::string> part_names;
   std::vector<std::pair<int, double>> symmetry_planes;  ///< axis and coordinate
@@ -122,6 +131,12 @@ struct Summary {
     double deepest_penetration_m = 0;
   };
   std::vector<ContactPair> contact_pairs;
+  struct Deleted {
+    Index element = kNone;
+    std::string part;
+    double time_s = 0;
+  };
+  std::vector<Deleted> deleted;  ///< elements that users' laws deleted, in order
   std::vector<std::string> warnings;
   std::vector<StageSeconds> stages;
 };

@@ -19,6 +19,7 @@ double bulk_modulus(const Material& material) {
       return of(m.static_modulus + m.rate_modulus, m.poissons_ratio);  // at 1/s
     }
     double operator()(const RigidMaterial& m) const { return of(m.youngs_modulus, m.poissons_ratio); }
+    double operator()(const UserMaterial& m) const { return of(m.youngs_modulus, m.poissons_ratio); }
     static double of(double e, double nu) { return e / (3 * (1 - 2 * nu)); }
   };
   return std::visit(Visit{}, material.law);

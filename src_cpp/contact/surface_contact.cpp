@@ -9,7 +9,6 @@ namespace cdfp {
 
 namespace {
 
-constexpr double kWarnShare = 0.1;
 constexpr std::int64_t kSpeedGrain = 4096;
 
 }  // namespace
@@ -53,9 +52,10 @@ void SurfaceContact::Stages::activate_edge(Index edge) {
 
 SurfaceContact::SurfaceContact(const ContactSettings& settings) {
   if (!(settings.penalty_factor > 0) || !(settings.friction >= 0) || !(settings.depth_limit > 0) ||
-      !(settings.depth_limit <= 1)) {
+      !(settings.depth_limit <= 1) || !(settings.penetration_warning > 0)) {
     throw Error(Status::bad_argument,
-                "contact: penalty_factor must be positive, friction not negative, depth_limit in (0, 1]");
+                "contact: penalty_factor and penetration_warning must be positive, friction not negative, "
+                "depth_limit in (0, 1]");
   }
   stages_ = std::make_unique<Stages>(settings);
 }
@@ -220,7 +220,7 @@ void SurfaceContact::name_parts(std::vector<std::string> names) {
 
 std::vector<std::string> SurfaceContact::warnings() const {
   const Stages::Deepest& worst = stages_->worst;
-  if (worst.share <= kWarnShare) return {};
+  if (worst.share <= stages_->settings.penetration_warning) return {};
   const auto of_part = [&](Index part) {
     const bool named = part >= 0 && part < static_cast<Index>(stages_->part_names.size());
     return named ? " of part " + stages_->part_names[part] : std::string();
@@ -232,7 +232,9 @@ std::vector<std::string> SurfaceContact::warnings() const {
   std::snprintf(share, sizeof share, ", %.0f %% of that element's height; ", 100 * worst.share);
   return {(worst.edges ? "contact: an edge at node " : "contact: node ") + std::to_string(worst.node) +
           of_part(worst.parts[0]) + depth + of_part(worst.parts[1]) + share +
-          "raise contact.penalty_factor or take smaller steps"};
+          "raise contact.penalty_factor or take smaller steps (contact.penetration_warning sets from which "
+          "share on "
+          "this is said)"};
 }
 
 std::size_t SurfaceContact::memory() const {

@@ -1,5 +1,7 @@
 #include "driver/case_reader.hpp"
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -7,6 +9,7 @@
 
 #include "cdfp/error.hpp"
 #include "cdfp/laminated_plate.hpp"
+#include "cdfp/material_library.hpp"
 #include "driver/toml_table.hpp"
 
 namespace cdfp {
@@ -60,10 +63,91 @@ Mesh read_mesh(TomlTable& top) {
   return laminated_plate_mesh(plate);
 }
 
-decltype(Material::law) read_law(TomlTable& t) {
-  enum class Law { elastic, rate_dependent, rigid };
-  static constexpr std::pair<const char*, Law> laws[] = {
-      {"elastic", Law::elastic}, {"rate_dependent", Law::rate_dependent}, {"rigid", Law::rigid}};
+/// A path in a case file is meant from the file's folder.
+std::string path_from(const std::string& case_file, const std::string& path) {
+  return (std::filesystem::path(case_file).parent_path() / path).lexically_normal().string();
+}
+
+/// The library under `library`, or that of the source under `source`, compiled if need be.
+std::string read_library(TomlTable& t, const std::string& case_file, const BuildOptions& build) {
+  std::string library, source;
+  t.read("library", library);
+  t.read("source", source);
+  if (library.empty() == source.empty()) {
+    t.refuse(source.empty() ? "law" : "source", "a law from outside takes either 'source' or 'library'");
+  }
+  if (!library.empty()) return path_from(case_file, library);
+  try {
+    return built_material(path_from(case_file, source), build);
+  } catch (const Error& error) {
+    t.refuse("source", error.what());
+  }
+}
+
+/// The number of the state under `delete_by`: its name, or what it would be called without one.
+int read_deletion_state(TomlTable& t, const UserMaterial& material) {
+  std::string name;
+  t.read("delete_by", name);
+  if (!t.has("delete_by")) return -1;
+  std::vector<std::string> names = material.state_names;
+  for (int k = static_cast<int>(names.size()); k < material.states; ++k) {
+    names.push_back("state_" + std::to_string(k + 1));
+  }
+  t.check_name("delete_by", name, names, "state");
+  return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+UserMaterial read_user_law(TomlTable& t, const std::string& name, const std::string& case_file, bool vumat) {
+  constexpr Range poisson{.least = -1, .most = 0.5, .least_excluded = true, .most_excluded = true};
+  UserMaterial material;
+  t.need("density", material.density, kPositive);
+  t.read("youngs_modulus", material.youngs_modulus, kPositive);
+  if (t.has("youngs_modulus")) t.require("poissons_ratio");
+  t.read("poissons_ratio", material.poissons_ratio, poisson);
+  t.read("properties", material.properties);
+  t.read("states", material.states, {.least = 0, .most = 100000});
+  t.read("state_names", material.state_names);
+  if (material.state_names.size() > static_cast<std::size_t>(material.states)) {
+    t.refuse("state_names", "'state_names' has " + std::to_string(material.state_names.size()) +
+                                " names; the law has " + std::to_string(material.states) + " states");
+  }
+  material.deletion_state = read_deletion_state(t, material);
+  t.read("thread_safe", material.thread_safe);
+  VumatOptions options;
+  BuildOptions build;
+  std::string symbol = "cdfp_material";
+  if (vumat) {
+    options.name = name;
+    options.job = std::filesystem::path(case_file).stem().string();
+    options.folder = std::filesystem::absolute(case_file).parent_path().string();
+    t.read("name", options.name);
+    t.read("single_precision", options.single_precision);
+    t.read("temperature", options.temperature);
+    t.read("fields", options.fields);
+    build.single_precision = options.single_precision;
+  } else {
+    t.read("function", symbol);
+  }
+  const std::string library = read_library(t, case_file, build);
+  try {
+    if (vumat) {
+      load_vumat(library, options, material);
+    } else {
+      load_material(library, symbol, material);
+    }
+  } catch (const Error& error) {
+    t.refuse(t.has("library") ? "library" : "source", error.what());
+  }
+  return material;
+}
+
+decltype(Material::law) read_law(TomlTable& t, const std::string& name, const std::string& case_file) {
+  enum class Law { elastic, rate_dependent, rigid, vumat, library };
+  static constexpr std::pair<const char*, Law> laws[] = {{"elastic", Law::elastic},
+                                                         {"rate_dependent", Law::rate_dependent},
+                                                         {"rigid", Law::rigid},
+                                                         {"vumat", Law::vumat},
+                                                         {"library", Law::library}};
   constexpr Range poisson{.least = -1, .most = 0.5, .least_excluded = true, .most_excluded = true};
   t.require("law");
   Law law{};
@@ -76,6 +160,7 @@ decltype(Material::law) read_law(TomlTable& t) {
   };
   if (law == Law::elastic) return constants(ElasticMaterial{});
   if (law == Law::rigid) return constants(RigidMaterial{});
+  if (law == Law::vumat || law == Law::library) return read_user_law(t, name, case_file, law == Law::vumat);
   RateDependentMaterial material;
   t.need("density", material.density, kPositive);
   t.need("poissons_ratio", material.poissons_ratio, poisson);
@@ -86,10 +171,10 @@ decltype(Material::law) read_law(TomlTable& t) {
   return material;
 }
 
-void read_materials(TomlTable& top, Model& model) {
+void read_materials(TomlTable& top, Model& model, const std::string& case_file) {
   top.require("materials");
   for (auto& [name, t] : top.named_tables("materials")) {
-    model.materials.push_back({name, read_law(t)});
+    model.materials.push_back({name, read_law(t, name, case_file)});
     t.finish();
   }
 }
@@ -261,6 +346,7 @@ void read_contact(TomlTable& top, Model& model) {
   t->read("penalty_factor", c.penalty_factor, kPositive);
   t->read("friction", c.friction, kNotNegative);
   t->read("depth_limit", c.depth_limit, kPositive);
+  t->read("penetration_warning", c.penetration_warning, kPositive);
   t->read("edge_edge", c.edge_edge);
   t->read("adaptive", c.adaptive);
   t->finish();
@@ -283,12 +369,12 @@ void read_output(TomlTable& top, Model& model) {
   t->finish();
 }
 
-Model read_model(TomlTable& top) {
+Model read_model(TomlTable& top, const std::string& case_file) {
   Model model;
   top.read("title", model.title);
   top.read("threads", model.threads, {.least = 0, .most = 1024});
   model.mesh = read_mesh(top);
-  read_materials(top, model);
+  read_materials(top, model, case_file);
   read_cohesive_laws(top, model);
   read_parts(top, model);
   read_bonds(top, model);
@@ -311,7 +397,7 @@ Model parse_case(std::string_view text, const std::string& file) {
   try {
     const toml::table table = toml::parse(text, file);
     TomlTable top(table, "", file);
-    return read_model(top);
+    return read_model(top, file);
   } catch (const toml::parse_error& error) {
     const toml::source_position place = error.source().begin;
     throw Error(Status::bad_input, file + ":" + std::to_string(place.line) + ":" +

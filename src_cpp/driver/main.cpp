@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 
+#include "cdfp/material_library.hpp"
 #include "driver/case_reader.hpp"
 #include "driver/run_case.hpp"
 #include "scene/scene.hpp"
@@ -41,6 +42,14 @@ int run(const std::string& case_file, const std::string& folder, int threads) {
   return cdfp::run_case(std::move(model), folder) ? 0 : kInterrupted;
 }
 
+int build(const std::string& source, const std::string& output, bool single) {
+  const std::string library =
+      output.empty() ? std::filesystem::path(source).replace_extension(".so").string() : output;
+  cdfp::build_material(source, library, {single});
+  std::printf("%s\n", library.c_str());
+  return 0;
+}
+
 /// GNU's OpenMP lets threads spin for about a millisecond before they sleep, and reads how long when the
 /// program is loaded. Beside other work on the same processors that makes two threads ten times slower than
 /// one; on a free machine the short spin costs nothing measurable. A user's own choice stands.
@@ -68,6 +77,14 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1024));
   CLI::App* check_command = app.add_subcommand("check", "Read and check a case without running it");
   check_command->add_option("CASE", case_file, "Case file (TOML)")->required();
+  std::string source;
+  std::string library;
+  bool single = false;
+  CLI::App* build_command =
+      app.add_subcommand("build-material", "Compile a VUMAT or another material to a shared library");
+  build_command->add_option("FILE", source, "Source: Fortran (.f .for .f90), C or C++")->required();
+  build_command->add_option("-o,--output", library, "Library (default: the source with the ending .so)");
+  build_command->add_flag("--single", single, "Reals of four bytes (vaba_param_sp.inc)");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -75,6 +92,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (check_command->parsed()) return check(case_file);
+    if (build_command->parsed()) return build(source, library, single);
     return run(case_file, folder.empty() ? default_folder(case_file) : folder, threads);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "cdfp: error: %s\n", error.what());

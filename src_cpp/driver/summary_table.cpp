@@ -58,6 +58,10 @@ void add_balances(const Summary& s, Table& table) {
   table.row("energy balance", "%.5f to %.5f", s.energy_balance_min, s.energy_balance_max);
   table.row("hourglass over strain energy", "%.4f at most", s.hourglass_over_strain_max);
   table.row("cohesive elements", "%d inserted, %d broken", s.cohesive_inserted, s.cohesive_broken);
+  if (!s.deleted.empty()) {
+    table.row("deleted elements", "%zu, the first (%d of %s) at %.2f us", s.deleted.size(),
+              s.deleted.front().element, s.deleted.front().part.c_str(), s.deleted.front().time_s * 1e6);
+  }
   if (s.cohesive_broken > 0) table.row("dissipated over G A", "%.4f", s.cohesive_dissipated_over_ga);
 }
 

@@ -31,6 +31,15 @@ struct BlockInput {
   const double* position;
 };
 
+/// The points of one integration point of a block's elements, for a law of the user's: component after
+/// component, each of `BlockInput::count` points (see cdfp/material.h).
+struct UserPointArrays {
+  const double* stretch_old;
+  double *stretch, *gradient, *rotation, *strain_increment, *spin_increment;
+  double* density;  ///< kg/m3; not positive or not a number where the point is inverted or lost
+  const double *stress, *dissipated, *stiffness;
+};
+
 struct BlockEnergy {
   double strain = 0, hourglass = 0, dissipated = 0;
 };

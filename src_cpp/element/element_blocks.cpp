@@ -22,6 +22,11 @@ constexpr std::size_t kMostBlocksATask = 32;
 constexpr std::size_t kTasksWanted = 128;
 
 BlockKind kind_of(const PartPlan& plan, ElementType type, bool prism) {
+  if (plan.user) {
+    if (type == ElementType::tetrahedron) return BlockKind::tetrahedron_stored;
+    if (plan.full) return prism ? BlockKind::full_prism_stored : BlockKind::full_stored;
+    return prism ? BlockKind::prism_stored : BlockKind::hexahedron_stored;
+  }
   if (type == ElementType::tetrahedron) {
     return plan.rate_dependent ? BlockKind::tetrahedron_rate_dependent : BlockKind::tetrahedron_elastic;
   }
@@ -75,6 +80,7 @@ void write_constants(BlockKind kind, const HexahedronGeometry& geometry, const E
   };
   switch (kind) {
     case BlockKind::prism_elastic:
+    case BlockKind::prism_stored:
     case BlockKind::prism_rate_dependent: {
       using Shape = host::Prism;
       prism_gradient();
@@ -84,6 +90,7 @@ void write_constants(BlockKind kind, const HexahedronGeometry& geometry, const E
       return;
     }
     case BlockKind::hexahedron_elastic:
+    case BlockKind::hexahedron_stored:
     case BlockKind::hexahedron_rate_dependent: {
       using Shape = host::Hexahedron;
       gradient();
@@ -97,6 +104,7 @@ void write_constants(BlockKind kind, const HexahedronGeometry& geometry, const E
       return;
     }
     case BlockKind::full_prism_elastic:
+    case BlockKind::full_prism_stored:
     case BlockKind::full_prism_rate_dependent: {
       using Shape = host::PrismPoints;
       prism_gradient();
@@ -111,6 +119,7 @@ void write_constants(BlockKind kind, const HexahedronGeometry& geometry, const E
       return;
     }
     case BlockKind::full_elastic:
+    case BlockKind::full_stored:
     case BlockKind::full_rate_dependent: {
       using Shape = host::HexahedronPoints;
       gradient();
@@ -164,6 +173,9 @@ ElementBlocks::ElementBlocks(const Model& model) : part_count(model.mesh.part_na
   const Threads threads(model.threads);
   first_corner = first_corners_of(model.mesh);
   sort_into_groups(model, threads);
+  for (BlockGroup& group : groups) {
+    if (group.plan.user) start_user_law(group, model.mesh);
+  }
   for (BlockGroup& group : groups) fill(group, model.mesh, threads);
   tighten_step_terms(model.mesh);
   colour_tasks(model.mesh.node_count());
@@ -222,7 +234,8 @@ void ElementBlocks::sort_into_groups(const Model& model, const Threads& threads)
                      {},
                      {},
                      {},
-                     {}};
+                     {},
+                     nullptr};
     for (const Centroid& member : members[m]) {
       places[member.element] = {static_cast<std::int32_t>(groups.size()),
                                 static_cast<std::int32_t>(group.elements.size())};
@@ -231,6 +244,36 @@ void ElementBlocks::sort_into_groups(const Model& model, const Threads& threads)
     block_count += group.blocks();
     groups.push_back(std::move(group));
   }
+}
+
+/// Before `fill`, since the law's first answer may be what the constants follow from.
+void ElementBlocks::start_user_law(BlockGroup& group, const Mesh& mesh) {
+  std::vector<UserPoints::Element> elements;
+  for (const Index e : group.elements) {
+    UserPoints::Element element{e, corner_masses[e] * group.corners() / group.plan.constants.density,
+                                Mat3::identity()};
+    if (group.corners() == 8) {
+      const Eigen::Matrix3d frame = hexahedron_geometry(corners_of<Corners>(mesh, first_corner[e])).frame;
+      for (int i = 0; i < 9; ++i) element.axes(i / 3, i % 3) = frame(i / 3, i % 3);
+    }
+    elements.push_back(element);
+  }
+  group.user =
+      std::make_unique<UserPoints>(group.plan, group.kernel->points, group.corners(), std::move(elements));
+  const UserPoints::Moduli shown = group.user->start([&](std::size_t slot, int corner) {
+    const Index node = mesh.connectivity[first_corner[group.elements[slot]] + corner];
+    return &mesh.coordinates[3 * static_cast<std::size_t>(node)];
+  });
+  const UserMaterial& law = *group.plan.user;
+  if (shown.youngs == 0 && law.youngs_modulus == 0) {
+    throw Error(
+        Status::bad_argument,
+        "material '" + group.plan.material +
+            "' gave no stress like an elastic solid's for the tiny strain of its first call; give its "
+            "youngs_modulus and poissons_ratio, or make it answer there");
+  }
+  if (shown.youngs > 0) set_elasticity(group.plan, shown.youngs, shown.poisson);
+  if (law.youngs_modulus == 0) set_hourglass(group.plan, shown.youngs, shown.poisson);
 }
 
 void ElementBlocks::fill(BlockGroup& group, const Mesh& mesh, const Threads& threads) const {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "element/geometry.hpp"
 #include "element/kernels.hpp"
 #include "element/part_plan.hpp"
+#include "element/user_points.hpp"
 
 namespace cdfp {
 
@@ -26,6 +28,7 @@ struct BlockGroup {
   std::vector<Index> elements;  ///< of each slot; lanes of the last block may be idle
   std::vector<Lanes> constants, state, step_terms;
   std::vector<std::int32_t> offsets;  ///< [row][corner][lane], 3 * node
+  std::unique_ptr<UserPoints> user;   ///< of a user's law
 
   int corners() const { return kernel->corners; }
 
@@ -76,6 +79,7 @@ struct ElementBlocks {
 
  private:
   void sort_into_groups(const Model& model, const Threads& threads);
+  void start_user_law(BlockGroup& group, const Mesh& mesh);
   void fill(BlockGroup& group, const Mesh& mesh, const Threads& threads) const;
   void tighten_step_terms(const Mesh& mesh);
   void colour_tasks(Index node_count);

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "element/element_blocks.hpp"
+#include "element/one_point.hpp"
 #include "element/single_element.hpp"
 
 namespace cdfp {
@@ -19,6 +21,9 @@ struct ElementForce::Blocks : ElementBlocks {
   std::vector<std::uint64_t> critical_now;  ///< one a block, bit l: element l of the block
   std::vector<std::uint64_t> critical_set;  ///< one bit an element; empty if no part cracks
   std::vector<Index> critical;
+  std::vector<Index> deleted;  ///< by the last step of users' laws
+
+  void remove(BlockGroup& group, std::size_t slot);
 };
 
 ElementForce::Blocks::Blocks(const Model& model)
@@ -35,6 +40,19 @@ void ElementForce::Blocks::run(const Task& task, std::span<const double> positio
     critical_now[group.first_block + block] = group.kernel->add_force(
         group.input(block, position), steps[task.group], group.block_state(block), force.data());
   }
+}
+
+/// A deleted element has neither stress nor hourglass stiffness, and does not bound the step.
+void ElementForce::Blocks::remove(BlockGroup& group, std::size_t slot) {
+  const std::size_t row = slot / kLanes, lane = slot % kLanes;
+  Lanes* constants = &group.constants[row * static_cast<std::size_t>(group.kernel->constants)];
+  const auto clear_hourglass = [&]<class Shape>() {
+    for (int i = 0; i < 3; ++i) constants[Shape::kStiffness + i].value[lane] = 0;
+  };
+  if (group.kind == BlockKind::prism_stored) clear_hourglass.operator()<host::Prism>();
+  if (group.kind == BlockKind::hexahedron_stored) clear_hourglass.operator()<host::Hexahedron>();
+  for (int k = 0; k < 4; ++k) group.step_terms[4 * row + static_cast<std::size_t>(k)].value[lane] = 0;
+  deleted.push_back(group.elements[slot]);
 }
 
 /// Through a set of bits, so that any number of elements comes out ascending in linear time.
@@ -72,6 +90,43 @@ void ElementForce::add_mass(std::span<double> mass) const {
 
 double ElementForce::corner_mass(Index element) const {
   return blocks_->corner_masses[element];
+}
+
+bool ElementForce::has_user_laws() const {
+  return std::any_of(blocks_->groups.begin(), blocks_->groups.end(),
+                     [](const BlockGroup& group) { return group.user != nullptr; });
+}
+
+std::span<const Index> ElementForce::advance_user_laws(std::span<const double> position, double time,
+                                                       double step, const Threads& threads) {
+  blocks_->deleted.clear();
+  std::vector<BlockInput> inputs;
+  for (BlockGroup& group : blocks_->groups) {
+    if (!group.user) continue;
+    inputs.clear();
+    for (std::size_t block = 0; block < group.blocks(); ++block)
+      inputs.push_back(group.input(block, position));
+    group.user->advance(*group.kernel, time, step, threads, inputs, group.state.data());
+    for (const std::size_t slot : group.user->take_deleted()) blocks_->remove(group, slot);
+  }
+  std::sort(blocks_->deleted.begin(), blocks_->deleted.end());
+  return blocks_->deleted;
+}
+
+ElementForce::Elasticity ElementForce::shown_elasticity(Index part) const {
+  for (const BlockGroup& group : blocks_->groups) {
+    if (group.part != part) continue;
+    const MaterialConstants& m = group.plan.constants.material;
+    return {m.mu * (3 * m.lambda + 2 * m.mu) / (m.lambda + m.mu), m.lambda / (2 * (m.lambda + m.mu))};
+  }
+  return {};
+}
+
+double ElementForce::mean_state(Index element, int state) const {
+  const Blocks::Place& place = blocks_->places[element];
+  const UserPoints* user = place.group == kNone ? nullptr : blocks_->groups[place.group].user.get();
+  if (!user || state >= user->law().states) return std::numeric_limits<double>::quiet_NaN();
+  return user->mean_state(static_cast<std::size_t>(place.slot), state);
 }
 
 void ElementForce::add_force(std::span<const double> position, std::span<double> force, double step,
@@ -194,6 +249,7 @@ std::size_t ElementForce::memory() const {
   for (const BlockGroup& group : b.groups) {
     bytes += group.elements.size() * sizeof(Index) + group.offsets.size() * sizeof(std::int32_t);
     bytes += (group.constants.size() + group.state.size() + group.step_terms.size()) * sizeof(Lanes);
+    if (group.user) bytes += group.user->memory();
   }
   return b.places.empty() ? 0 : bytes / b.places.size();
 }

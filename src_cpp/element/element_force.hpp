@@ -33,6 +33,25 @@ class ElementForce {
   /// kg: what one element gives to each of its corners; 0 for rigid elements.
   double corner_mass(Index element) const;
 
+  /// Whether a part has a law of the user's, so that `advance_user_laws` has work.
+  bool has_user_laws() const;
+
+  /// Calls users' laws for the step of that length which ends at `time` with the nodes at `position`; their
+  /// stress stands until the next call. The same bits for any number of threads. Returns the elements that
+  /// were deleted, ascending. Throws `Error(diverged)` naming element, point, material and time if a law
+  /// fails.
+  std::span<const Index> advance_user_laws(std::span<const double> position, double time, double step,
+                                           const Threads& threads);
+
+  /// Elastic constants that the law of a part showed in its first call: the model's, if it gives some.
+  struct Elasticity {
+    double youngs_modulus = 0, poissons_ratio = 0;
+  };
+  Elasticity shown_elasticity(Index part) const;
+
+  /// Of a part with a user's law: the mean of a state over the element's points. NaN for any other.
+  double mean_state(Index element, int state) const;
+
   /// Adds minus the internal force to `force` and advances the material state by `step`.
   /// The same bits for any number of threads.
   void add_force(std::span<const double> position, std::span<double> force, double step,

@@ -184,18 +184,7 @@ struct FullIntegration {
     return volume_now;
   }
 
-  template <class T>
-  CDFP_INLINE static T volume(const double* constants, int point) {
-    return Points::template volume<T>(constants, point);
-  }
-
- private:
-  static constexpr double kPlace = 0.57735026918962576451;  ///< of the points, 1 / sqrt 3
-
-  /// Modes of the tangent along an axis: constant, linear in its first and in its second companion, product.
-  static constexpr int kOf[3][4] = {{0, 5, 4, 6}, {1, 5, 3, 6}, {2, 4, 3, 6}};
-
-  /// `use(F, Ebar, point)`
+  /// `use(F, Ebar, point)`, F by columns
   template <class T, class Use>
   CDFP_INLINE static void each_point(const double* constants, const T (&x)[8][3], Use&& use) {
     T m[kModes][3], mean[3][3], tangent[3][4][3];
@@ -210,6 +199,17 @@ struct FullIntegration {
       use(grad, strain, point);
     }
   }
+
+  template <class T>
+  CDFP_INLINE static T volume(const double* constants, int point) {
+    return Points::template volume<T>(constants, point);
+  }
+
+ private:
+  static constexpr double kPlace = 0.57735026918962576451;  ///< of the points, 1 / sqrt 3
+
+  /// Modes of the tangent along an axis: constant, linear in its first and in its second companion, product.
+  static constexpr int kOf[3][4] = {{0, 5, 4, 6}, {1, 5, 3, 6}, {2, 4, 3, 6}};
 
   /// 8 dx/dxi_axis on each line.
   template <class T>

@@ -18,9 +18,14 @@ enum class BlockKind : int {
   full_elastic,
   full_rate_dependent,
   tetrahedron_elastic,
-  tetrahedron_rate_dependent
+  tetrahedron_rate_dependent,
+  prism_stored,
+  hexahedron_stored,
+  full_prism_stored,
+  full_stored,
+  tetrahedron_stored
 };
-inline constexpr int kBlockKinds = 10;
+inline constexpr int kBlockKinds = 15;
 
 struct BlockKernel {
   int corners = 0;    ///< of an element
@@ -34,6 +39,15 @@ struct BlockKernel {
   /// Bounds of omega^2 as deformed now, 1/s2, one a lane; `terms`: [row][the four StepTerms]
   /// [lane]. `omega_squared`: aligned as Lanes.
   void (*step_bound)(const BlockInput& block, const Lanes* terms, double* omega_squared) = nullptr;
+
+  // Of stored kinds. `frames`: [row][3 x 3][lane], rows are the elements' axes; `points`: one an integration
+  // point.
+  int points = 0;
+  /// Writes what a law is told of the deformation.
+  void (*deform)(const BlockInput& block, const Lanes* frames, const UserPointArrays* points) = nullptr;
+  /// Turns the law's stress into what `state` keeps, and adds the work done on the points.
+  void (*take_stress)(const BlockInput& block, const Lanes* frames, const UserPointArrays* points,
+                      Lanes* state) = nullptr;
 };
 
 struct Kernels {
@@ -47,8 +61,7 @@ extern const Kernels kKernelsAvx2;
 extern const Kernels kKernelsAvx512;
 #endif
 
-/// The best set that this processor runs. The environment variable CDFP_ISA (baseline, avx2 or avx512) may
-/// name a lesser one; throws `Error(bad_argument)` for another word or a set that the processor lacks.
+/// Those of `choose_instruction_set`.
 const Kernels& choose_kernels();
 
 }  // namespace cdfp

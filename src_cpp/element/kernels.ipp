@@ -1,13 +1,16 @@
 // The kernels, compiled once for each instruction set: the including file sets CDFP_ISA and CDFP_KERNELS.
 // Only headers whose functions live in namespace CDFP_ISA, or that hold none, may be included here.
 #include <cstddef>
+#include <cstring>
 
 #include "element/full_integration.hpp"
 #include "element/kernels.hpp"
 #include "element/one_point.hpp"
 #include "element/tetrahedron.hpp"
 #include "material/elastic.hpp"
+#include "material/polar.hpp"
 #include "material/rate_dependent.hpp"
+#include "material/stored.hpp"
 
 namespace cdfp {
 
@@ -148,10 +151,154 @@ void step_bound(const BlockInput& block, const Lanes* terms, double* omega_squar
   }
 }
 
+/// Some lanes of arrays of `count` points that need not be aligned.
+struct SomePoints {
+  std::ptrdiff_t count, first;
+  std::size_t bytes;
+
+  SomePoints(int points, int start)
+      : count(points),
+        first(start),
+        bytes(sizeof(double) * static_cast<std::size_t>(points - start < kWidth ? points - start : kWidth)) {}
+  CDFP_INLINE Pack load(const double* array, int component) const {
+    Pack a(1.0);
+    std::memcpy(&a, array + component * count + first, bytes);
+    return a;
+  }
+  CDFP_INLINE void store(double* array, int component, Pack a) const {
+    std::memcpy(array + component * count + first, &a, bytes);
+  }
+  /// In the order 11 22 33 12 23 31.
+  CDFP_INLINE Symmetric<Pack> load_symmetric(const double* array) const {
+    return {load(array, 0), load(array, 1), load(array, 2), load(array, 3), load(array, 4), load(array, 5)};
+  }
+  CDFP_INLINE void store_symmetric(double* array, const Symmetric<Pack>& a) const {
+    store(array, 0, a.xx), store(array, 1, a.yy), store(array, 2, a.zz);
+    store(array, 3, a.xy), store(array, 4, a.yz), store(array, 5, a.xz);
+  }
+  /// In the order 11 22 33 12 23 31 21 32 13.
+  CDFP_INLINE void store_full(double* array, const Pack (&a)[3][3]) const {
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      store(array, i, a[i][i]), store(array, 3 + i, a[i][j]), store(array, 6 + i, a[j][i]);
+    }
+  }
+};
+
+CDFP_INLINE void load_frame(const Lanes* frames, int first, Pack (&q)[3][3]) {
+  const double* lane = &frames[first / kLanes * 9].value[first % kLanes];
+  for (int i = 0; i < 9; ++i) q[i / 3][i % 3] = load<Pack>(lane + i * kLanes);
+}
+
+/// Where a formulation's strain is not that of its F (full integration), F is changed to fit it: U becomes
+/// the root of I + 2 Ebar, R stays.
+template <class Formulation>
+void deform(const BlockInput& block, const Lanes* frames, const UserPointArrays* points) {
+  const Pack density(block.part->density);
+  for (int first = 0; first < block.count; first += kWidth) {
+    const PackOfBlock<Formulation, Stored> pack(block, first);
+    const SomePoints some(block.count, first);
+    Pack x[Formulation::kCorners][3], q[3][3];
+    pack.gather(block.position, x);
+    load_frame(frames, first, q);
+    Formulation::each_point(
+        pack.constants, x, [&](const Pack(&grad)[3][3], const Symmetric<Pack>& strain, int p) {
+          const UserPointArrays& out = points[p];
+          Pack f[3][3], r[3][3];
+          for (int d = 0; d < 3; ++d) {
+            for (int j = 0; j < 3; ++j)
+              f[d][j] = grad[0][d] * q[0][j] + grad[1][d] * q[1][j] + grad[2][d] * q[2][j];
+          }
+          Pack volume_ratio = determinant_of(f);
+          rotation_of(f, r);
+          Symmetric<Pack> stretch = stretch_of(r, f);
+          if constexpr (Formulation::kPoints > 1) {
+            Pack back[3][3];
+            for (int i = 0; i < 3; ++i) {
+              for (int j = 0; j < 3; ++j) back[i][j] = q[j][i];
+            }
+            const Pack two(2.0), one(1.0);
+            const Symmetric<Pack> e = turned(back, strain);
+            stretch = root_of(Symmetric<Pack>{one + two * e.xx, one + two * e.yy, one + two * e.zz,
+                                              two * e.xy, two * e.yz, two * e.xz});
+            const Pack inverted = min(volume_ratio, Pack(0.0));  // the root does not show it
+            volume_ratio = determinant_of(stretch) + Pack(1e300) * inverted;
+            Pack u[3][3];
+            full_of(stretch, u);
+            for (int d = 0; d < 3; ++d) {
+              for (int j = 0; j < 3; ++j) f[d][j] = r[d][0] * u[0][j] + r[d][1] * u[1][j] + r[d][2] * u[2][j];
+            }
+          }
+          const Symmetric<Pack> before = some.load_symmetric(out.stretch_old);
+          Pack rate[3][3];
+          product_of(stretch - before, inverse_of(Pack(0.5) * (stretch + before)), rate);
+          const Pack half(0.5);
+          some.store_symmetric(out.stretch, stretch);
+          some.store_full(out.gradient, f);
+          some.store_full(out.rotation, r);
+          some.store(out.density, 0, density / volume_ratio);
+          for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3;
+            some.store(out.strain_increment, i, rate[i][i]);
+            some.store(out.strain_increment, 3 + i, half * (rate[i][j] + rate[j][i]));
+            some.store(out.spin_increment, i, half * (rate[j][i] - rate[i][j]));
+          }
+        });
+  }
+}
+
+/// S = J U^-1 s U^-1 of the corotated stress s, in the element's axes. The work of a step is
+/// (S_old + S_new) / 2 : (E_new - E_old), as of the forces at its two ends.
+template <class Formulation>
+void take_stress(const BlockInput& block, const Lanes* frames, const UserPointArrays* points, Lanes* state) {
+  const PartConstants part = *block.part;
+  const Pack plane_wave(part.material.lambda + 2 * part.material.mu);
+  for (int first = 0; first < block.count; first += kWidth) {
+    const PackOfBlock<Formulation, Stored> pack(block, first);
+    const SomePoints some(block.count, first);
+    Pack q[3][3];
+    load_frame(frames, first, q);
+    for (int p = 0; p < Formulation::kPoints; ++p) {
+      const UserPointArrays& in = points[p];
+      double* here = pack.point(reinterpret_cast<double*>(state), p);
+      const auto strain = [](const Symmetric<Pack>& u) {
+        Pack square[3][3];
+        product_of(u, u, square);
+        const Pack half(0.5);
+        return half * Symmetric<Pack>{square[0][0], square[1][1], square[2][2],
+                                      square[0][1], square[1][2], square[0][2]};
+      };
+      const Symmetric<Pack> stretch = some.load_symmetric(in.stretch);
+      const Symmetric<Pack> change = strain(stretch) - strain(some.load_symmetric(in.stretch_old));
+      const Symmetric<Pack> inverse = inverse_of(stretch);
+      Pack to_reference[3][3];
+      full_of(inverse, to_reference);
+      const Symmetric<Pack> s =
+          turned(q, determinant_of(stretch) * turned(to_reference, some.load_symmetric(in.stress)));
+      const Symmetric<Pack> before = load_symmetric<Pack>(here + Stored::kStress * kLanes, kLanes);
+      const Pack work = Pack(0.5) * double_dot(s + before, turned(q, change));
+      double* energy = here + Stored::kWork * kLanes;
+      store(energy, load<Pack>(energy) + work);
+      store(here + Stored::kDissipated * kLanes, Pack(part.density) * some.load(in.dissipated, 0));
+      store(here + Stored::kRatio * kLanes, some.load(in.stiffness, 0) / plane_wave);
+      store_symmetric(here + Stored::kStress * kLanes, kLanes, s);
+    }
+  }
+}
+
 template <class Formulation, class Law>
 constexpr BlockKernel kernel() {
   return {Formulation::kCorners,        Formulation::kConstants,   Formulation::kPoints * Law::kState,
           &add_force<Formulation, Law>, &energy<Formulation, Law>, &step_bound<Formulation, Law>};
+}
+
+template <class Formulation>
+constexpr BlockKernel stored_kernel() {
+  BlockKernel k = kernel<Formulation, Stored>();
+  k.points = Formulation::kPoints;
+  k.deform = &deform<Formulation>;
+  k.take_stress = &take_stress<Formulation>;
+  return k;
 }
 
 }  // namespace CDFP_ISA
@@ -167,6 +314,11 @@ const Kernels CDFP_KERNELS{
       CDFP_ISA::kernel<CDFP_ISA::FullIntegration<CDFP_ISA::HexahedronPoints>, CDFP_ISA::Elastic>(),
       CDFP_ISA::kernel<CDFP_ISA::FullIntegration<CDFP_ISA::HexahedronPoints>, CDFP_ISA::RateDependent>(),
       CDFP_ISA::kernel<CDFP_ISA::Tetrahedron, CDFP_ISA::Elastic>(),
-      CDFP_ISA::kernel<CDFP_ISA::Tetrahedron, CDFP_ISA::RateDependent>()}}};
+      CDFP_ISA::kernel<CDFP_ISA::Tetrahedron, CDFP_ISA::RateDependent>(),
+      CDFP_ISA::stored_kernel<CDFP_ISA::OnePoint<CDFP_ISA::Prism>>(),
+      CDFP_ISA::stored_kernel<CDFP_ISA::OnePoint<CDFP_ISA::Hexahedron>>(),
+      CDFP_ISA::stored_kernel<CDFP_ISA::FullIntegration<CDFP_ISA::PrismPoints>>(),
+      CDFP_ISA::stored_kernel<CDFP_ISA::FullIntegration<CDFP_ISA::HexahedronPoints>>(),
+      CDFP_ISA::stored_kernel<CDFP_ISA::Tetrahedron>()}}};
 
 }  // namespace cdfp

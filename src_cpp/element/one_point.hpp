@@ -219,6 +219,17 @@ struct OnePoint {
     return volume<T>(constants, 0) * determinant(grad);
   }
 
+  /// `use(F, E, point)`, F by columns
+  template <class T, class Use>
+  CDFP_INLINE static void each_point(const double* constants, const T (&x)[8][3], Use&& use) {
+    T m[kModes][3], grad[3][3];
+    to_modes(x, m);
+    Shape::gradient(constants, m, grad);
+    Symmetric<T> strain;
+    green_strain(grad, strain);
+    use(grad, strain, 0);
+  }
+
   /// m3, of a point
   template <class T>
   CDFP_INLINE static T volume(const double* constants, int) {

@@ -41,8 +41,22 @@ double critical_norm(double stress, double mu) {
 
 void set_least_strength(PartPlan& plan, double strength) {
   const double stress = strength * std::min(1.0, plan.shear_ratio);
-  const double norm = plan.rate_dependent ? 0 : critical_norm(stress, plan.constants.material.mu);
+  const double norm =
+      plan.rate_dependent || plan.user ? 0 : critical_norm(stress, plan.constants.material.mu);
   plan.constants.critical_norm_squared = norm * norm;
+}
+
+void set_hourglass(PartPlan& plan, double youngs_modulus, double poissons_ratio) {
+  const double nu = poissons_ratio;
+  plan.hourglass_factor = plan.hourglass * 2 * mu_of(youngs_modulus, nu) / (1 - nu) / 64;
+  plan.constants.bending_coupling = nu;
+  plan.constants.shear_share = (1 - nu) / 2;
+  plan.constants.warping_share = (1 - nu * nu) / 3;
+}
+
+void set_elasticity(PartPlan& plan, double youngs_modulus, double poissons_ratio) {
+  plan.constants.material.lambda = lambda_of(youngs_modulus, poissons_ratio);
+  plan.constants.material.mu = mu_of(youngs_modulus, poissons_ratio);
 }
 
 std::optional<PartPlan> plan_part(const Model& model, const std::string& name) {
@@ -55,8 +69,7 @@ std::optional<PartPlan> plan_part(const Model& model, const std::string& name) {
     nu = elastic->poissons_ratio;
     hourglass_modulus = elastic->youngs_modulus;
     constants.density = elastic->density;
-    constants.material.lambda = lambda_of(elastic->youngs_modulus, nu);
-    constants.material.mu = mu_of(elastic->youngs_modulus, nu);
+    set_elasticity(plan, elastic->youngs_modulus, nu);
   } else if (const auto* rate = std::get_if<RateDependentMaterial>(&material.law)) {
     nu = rate->poissons_ratio;
     hourglass_modulus =
@@ -70,14 +83,20 @@ std::optional<PartPlan> plan_part(const Model& model, const std::string& name) {
                           rate->rate_exponent};
     plan.smoothing_time = rate->smoothing_time;
     plan.rate_dependent = true;
+  } else if (const auto* user = std::get_if<UserMaterial>(&material.law)) {
+    nu = user->poissons_ratio;
+    hourglass_modulus = user->youngs_modulus;
+    constants.density = user->density;
+    set_elasticity(plan, user->youngs_modulus, nu);
+    plan.user = std::make_shared<UserMaterial>(*user);
   } else {
     return std::nullopt;
   }
+  plan.part = part.name;
+  plan.material = material.name;
   plan.full = part.formulation == Formulation::full;
-  plan.hourglass_factor = part.hourglass * 2 * mu_of(hourglass_modulus, nu) / (1 - nu) / 64;
-  constants.bending_coupling = nu;
-  constants.shear_share = (1 - nu) / 2;
-  constants.warping_share = (1 - nu * nu) / 3;
+  plan.hourglass = part.hourglass;
+  set_hourglass(plan, hourglass_modulus, nu);
   plan.cracks = !part.cohesive_law.empty();
   constants.critical_norm_squared = std::numeric_limits<double>::infinity();
   if (plan.cracks) {

@@ -5,6 +5,7 @@
 #include "element/tetrahedron.hpp"
 #include "material/elastic.hpp"
 #include "material/rate_dependent.hpp"
+#include "material/stored.hpp"
 
 namespace cdfp {
 
@@ -37,6 +38,16 @@ void for_kind(BlockKind kind, Visit&& visit) {
       return visit.template operator()<Tetrahedron, Elastic>();
     case BlockKind::tetrahedron_rate_dependent:
       return visit.template operator()<Tetrahedron, RateDependent>();
+    case BlockKind::prism_stored:
+      return visit.template operator()<OnePoint<Prism>, Stored>();
+    case BlockKind::hexahedron_stored:
+      return visit.template operator()<OnePoint<Hexahedron>, Stored>();
+    case BlockKind::full_prism_stored:
+      return visit.template operator()<FullIntegration<PrismPoints>, Stored>();
+    case BlockKind::full_stored:
+      return visit.template operator()<FullIntegration<HexahedronPoints>, Stored>();
+    case BlockKind::tetrahedron_stored:
+      return visit.template operator()<Tetrahedron, Stored>();
   }
 }
 

@@ -74,6 +74,16 @@ struct Tetrahedron {
     return volume<T>(constants, 0) * determinant(grad);
   }
 
+  /// `use(F, E, point)`, F by columns
+  template <class T, class Use>
+  CDFP_INLINE static void each_point(const double* constants, const T (&x)[4][3], Use&& use) {
+    T grad[3][3];
+    gradient(constants, x, grad);
+    Symmetric<T> strain;
+    green_strain(grad, strain);
+    use(grad, strain, 0);
+  }
+
   template <class T>
   CDFP_INLINE static T volume(const double* constants, int) {
     return load<T>(constants + kVolume * kLanes);

@@ -156,6 +156,15 @@ void write_state(hid_t file, const Frame& frame) {
   dataset(state, {"parts", "1", "part of each element, from 0"}, frame.parts);
   dataset(state, {"von_mises", "Pa", "equivalent stress of each element"}, frame.von_mises);
   dataset(state, {"max_principal", "Pa", "largest principal stress of each element"}, frame.max_principal);
+  if (!frame.fields.empty()) {
+    const Handle fields = group(state, "fields");
+    attribute(fields, "description", "states of users' materials by name and stress, one entry an element");
+    for (const ElementField& field : frame.fields) {
+      const bool stress = field.name.starts_with("stress_");
+      dataset(fields, {field.name.c_str(), stress ? "Pa" : "of the law", "mean over the element's points"},
+              field.values);
+    }
+  }
   write_names(state, frame.part_names);
   write_cracks(state, frame.cracks);
 }

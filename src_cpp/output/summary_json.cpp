@@ -44,6 +44,14 @@ Json list_of(const std::vector<Summary::ContactPair>& pairs) {
   return list;
 }
 
+Json list_of(const std::vector<Summary::Deleted>& deleted) {
+  Json list = Json::array();
+  for (const Summary::Deleted& d : deleted) {
+    list.push_back({{"element", d.element}, {"part", d.part}, {"time_s", d.time_s}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string summary_json(const Summary& s) {
@@ -86,6 +94,7 @@ std::string summary_json(const Summary& s) {
       {"impactor_rebound_mps", s.impactor_rebound_mps},
       {"deepest_penetration_m", s.deepest_penetration_m},
       {"contact_pairs", list_of(s.contact_pairs)},
+      {"deleted_elements", list_of(s.deleted)},
       {"stage_seconds", Json::object()},
       {"stage_calls", Json::object()},
       {"warnings", s.warnings},

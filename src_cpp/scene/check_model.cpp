@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string>
 #include <variant>
@@ -20,6 +22,40 @@ void check_poisson(double nu, const std::string& where) {
               "; it must lie between -1 and 0.5 (0.49 for a nearly incompressible material)");
 }
 
+/// It names an array in files for others' programs, next to those that are always there.
+void check_state_name(const std::string& name, const std::string& where) {
+  const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
+  });
+  require(plain, where + ": state name '" + name + "' may hold letters, digits, '_', '-' and '.' only");
+  for (const char* taken : {"part", "velocity", "von_mises", "max_principal", "deleted"}) {
+    require(name != taken, where + ": state name '" + name + "' is an output's already; take another");
+  }
+  require(!name.starts_with("stress_"), where + ": state names that start with 'stress_' are the stress's");
+}
+
+void check_user_material(const UserMaterial& law, const std::string& where) {
+  require(law.callback != nullptr, where + ": a user material needs a callback");
+  require(law.states >= 0, where + ": states must not be negative");
+  require(std::isfinite(law.youngs_modulus) && law.youngs_modulus >= 0,
+          where + ": youngs_modulus must not be negative (0: as the law's first call shows)");
+  require(law.youngs_modulus > 0 || law.poissons_ratio == 0,
+          where + ": poissons_ratio means nothing without youngs_modulus; give both or neither");
+  require(law.deletion_state >= -1 && law.deletion_state < law.states,
+          where + ": deletion_state is " + std::to_string(law.deletion_state) + "; the law has states 0 to " +
+              std::to_string(law.states - 1) + " (-1: none deletes)");
+  require(law.state_names.size() <= static_cast<std::size_t>(law.states),
+          where + ": there are more state_names (" + std::to_string(law.state_names.size()) +
+              ") than states (" + std::to_string(law.states) + ")");
+  for (std::size_t i = 0; i < law.state_names.size(); ++i) {
+    check_state_name(law.state_names[i], where);
+    require(std::find(law.state_names.begin(), law.state_names.begin() + static_cast<std::ptrdiff_t>(i),
+                      law.state_names[i]) == law.state_names.begin() + static_cast<std::ptrdiff_t>(i),
+            where + ": two states are named '" + law.state_names[i] + "'");
+  }
+  for (const double p : law.properties) require(std::isfinite(p), where + ": a property is not finite");
+}
+
 void check_material(const Material& m) {
   const std::string where = "material '" + m.name + "'";
   std::visit(
@@ -32,6 +68,8 @@ void check_material(const Material& m) {
           require(law.rate_modulus >= 0, where + ": rate_modulus must not be negative");
           require(law.rate_exponent >= 0, where + ": rate_exponent must not be negative");
           require_positive(law.smoothing_time, where + ": smoothing_time");
+        } else if constexpr (std::is_same_v<Law, UserMaterial>) {
+          check_user_material(law, where);
         } else {
           require_positive(law.youngs_modulus, where + ": youngs_modulus");
         }
@@ -151,6 +189,7 @@ void check_settings(const Model& model) {
   require_positive(c.buffer_factor, "contact: buffer_factor");
   require_positive(c.penalty_factor, "contact: penalty_factor");
   require_positive(c.depth_limit, "contact: depth_limit");
+  require_positive(c.penetration_warning, "contact: penetration_warning");
   require(c.friction >= 0, "contact: friction must not be negative");
   require_positive(model.time.end, "time: end");
   require(model.time.fixed_step >= 0,

@@ -115,6 +115,7 @@ def main():
     header_path, compiler, nm, library, *source_paths = sys.argv[1:]
     header = pathlib.Path(header_path).read_text()
     source = "".join(pathlib.Path(path).read_text() for path in source_paths)
+    header += (pathlib.Path(header_path).parent / "material.h").read_text()
     faults = differences(header, source, compiler)
 
     for what, old, new in DRIFT:

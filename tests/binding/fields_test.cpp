@@ -58,7 +58,7 @@ TEST_F(Fields, Materials) {
   ASSERT_EQ(cdfp_model_add_rate_dependent_material(handle_, "rate", 1, 2, 3, 4, 5, 6), CDFP_OK);
   ASSERT_EQ(cdfp_model_add_rigid_material(handle_, "rigid", 4, 5, 6), CDFP_OK);
   ASSERT_EQ(model().materials.size(), 3u);
-  static_assert(std::variant_size_v<decltype(Material::law)> == 3);
+  static_assert(std::variant_size_v<decltype(Material::law)> == 4);  // users': below
   {
     const auto& [name, law] = model().materials[0];
     const auto& [density, youngs_modulus, poissons_ratio] = std::get<ElasticMaterial>(law);
@@ -75,6 +75,50 @@ TEST_F(Fields, Materials) {
     const auto& [density, youngs_modulus, poissons_ratio] = std::get<RigidMaterial>(model().materials[2].law);
     EXPECT_EQ((Vector{density, youngs_modulus, poissons_ratio}), (Vector{4, 5, 6}));
   }
+}
+
+TEST_F(Fields, UserMaterials) {
+  cdfp_user_material given;
+  ASSERT_EQ(cdfp_user_material_default(&given), CDFP_OK);
+  EXPECT_EQ(given.deletion_state, -1);
+  const double numbers[] = {5, 6};
+  given = {1, 2, 3, numbers, 2, 4, 3, 1};
+  const auto law = [](const cdfp_material_points* points, void* user_data) {
+    *static_cast<std::int64_t*>(user_data) = points->count;
+  };
+  std::int64_t asked = 0;
+  ASSERT_EQ(cdfp_model_add_user_material(handle_, "user", &given, law, &asked), CDFP_OK);
+  ASSERT_EQ(cdfp_model_set_state_name(handle_, "user", 1, "heat"), CDFP_OK);
+  const auto& [density, youngs_modulus, poissons_ratio, states, properties, state_names, deletion_state,
+               thread_safe, callback, warnings] = std::get<UserMaterial>(model().materials.at(0).law);
+  EXPECT_EQ((Vector{density, youngs_modulus, poissons_ratio}), (Vector{1, 2, 3}));
+  EXPECT_EQ(properties, (std::vector<double>{5, 6}));
+  EXPECT_EQ(states, 4);
+  EXPECT_EQ(deletion_state, 3);
+  EXPECT_TRUE(thread_safe);
+  EXPECT_EQ(state_names, (std::vector<std::string>{"state_1", "heat"}));
+  EXPECT_FALSE(warnings);
+  MaterialPoints points{};
+  points.count = 7;
+  callback(points);
+  EXPECT_EQ(asked, 7);
+  EXPECT_EQ(cdfp_model_add_user_material(handle_, "user", &given, nullptr, nullptr), CDFP_BAD_ARGUMENT);
+  EXPECT_EQ(cdfp_model_add_user_material(handle_, "user", nullptr, law, nullptr), CDFP_BAD_ARGUMENT);
+  EXPECT_EQ(cdfp_model_add_user_material(handle_, "", &given, law, nullptr), CDFP_BAD_ARGUMENT);
+  given.property_count = -1;
+  EXPECT_EQ(cdfp_model_add_user_material(handle_, "user", &given, law, nullptr), CDFP_BAD_ARGUMENT);
+  given.property_count = 2;
+  given.properties = nullptr;
+  EXPECT_EQ(cdfp_model_add_user_material(handle_, "user", &given, law, nullptr), CDFP_BAD_ARGUMENT);
+  EXPECT_EQ(cdfp_model_set_state_name(handle_, "user", 4, "x"), CDFP_BAD_ARGUMENT);
+  EXPECT_EQ(cdfp_model_set_state_name(handle_, "nobody", 0, "x"), CDFP_BAD_ARGUMENT);
+  cdfp_vumat vumat;
+  ASSERT_EQ(cdfp_vumat_default(&vumat), CDFP_OK);
+  given.property_count = 0;
+  EXPECT_EQ(cdfp_model_add_vumat_material(handle_, "v", &given, &vumat, "/nowhere.so"), CDFP_IO);
+  EXPECT_EQ(cdfp_model_add_library_material(handle_, "v", &given, "/nowhere.so", "law"), CDFP_IO);
+  EXPECT_EQ(cdfp_build_material("/nowhere.f", "/tmp/nowhere.so", 0), CDFP_IO);
+  EXPECT_EQ(model().materials.size(), 1u);
 }
 
 TEST_F(Fields, PartsAndCohesiveLaws) {

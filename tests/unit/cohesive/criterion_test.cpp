@@ -102,7 +102,7 @@ std::vector<Index> critical(const Scene& scene) {
 /// The meshes' nodes stand still in these scenes, so that facets of copies lie where those of the mesh did.
 void compare_with_force(Scene& scene, std::size_t least_found) {
   Topology topology = scene.topology();
-  const Criterion criterion(scene.model);
+  Criterion criterion(scene.model);
   const auto stress = [&](Index e) { return scene.stress[e]; };
   std::vector<OpenFacet> open;
   std::size_t found = 0;
