@@ -105,6 +105,7 @@ void cdfp::gate::take_settings(const cdfp_contact_settings* given, ContactSettin
   settings.penalty_factor = given->penalty_factor;
   settings.friction = given->friction;
   settings.depth_limit = given->depth_limit;
+  settings.penetration_warning = given->penetration_warning;
   settings.edge_edge = given->edge_edge != 0;
   settings.adaptive = given->adaptive != 0;
 }
@@ -115,6 +116,7 @@ cdfp_contact_settings cdfp::gate::shown(const ContactSettings& settings) {
           .penalty_factor = settings.penalty_factor,
           .friction = settings.friction,
           .depth_limit = settings.depth_limit,
+          .penetration_warning = settings.penetration_warning,
           .edge_edge = settings.edge_edge,
           .adaptive = settings.adaptive};
 }

@@ -28,7 +28,7 @@ module cdfp_c_model
   end type
 
   type, bind(c) :: cdfp_contact_settings
-    real(c_double) :: cell_factor, buffer_factor, penalty_factor, friction, depth_limit
+    real(c_double) :: cell_factor, buffer_factor, penalty_factor, friction, depth_limit, penetration_warning
     integer(c_int32_t) :: edge_edge, adaptive
   end type
 

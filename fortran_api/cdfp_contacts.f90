@@ -245,9 +245,10 @@ contains
 
   !> What is absent is as in a model: see `cdfp_contact_settings` in cdfp/cdfp.h.
   subroutine create(this, cell_factor, buffer_factor, penalty_factor, friction, depth_limit, edge_edge, &
-                    adaptive, stat, errmsg)
+                    adaptive, penetration_warning, stat, errmsg)
     class(cdfp_contact), intent(inout) :: this
     real(c_double), intent(in), optional :: cell_factor, buffer_factor, penalty_factor, friction, depth_limit
+    real(c_double), intent(in), optional :: penetration_warning
     logical, intent(in), optional :: edge_edge, adaptive
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
@@ -262,6 +263,7 @@ contains
     if (present(penalty_factor)) settings%penalty_factor = penalty_factor
     if (present(friction)) settings%friction = friction
     if (present(depth_limit)) settings%depth_limit = depth_limit
+    if (present(penetration_warning)) settings%penetration_warning = penetration_warning
     if (present(edge_edge)) settings%edge_edge = merge(1_c_int32_t, 0_c_int32_t, edge_edge)
     if (present(adaptive)) settings%adaptive = merge(1_c_int32_t, 0_c_int32_t, adaptive)
     status = cdfp_contact_create(settings, made)

@@ -569,9 +569,10 @@ contains
 
   !> What is absent stays as it is: see `cdfp_contact_settings` in cdfp/cdfp.h.
   subroutine set_contact(this, cell_factor, buffer_factor, penalty_factor, friction, depth_limit, edge_edge, &
-                         adaptive, stat, errmsg)
+                         adaptive, penetration_warning, stat, errmsg)
     class(cdfp_model), intent(in) :: this
     real(c_double), intent(in), optional :: cell_factor, buffer_factor, penalty_factor, friction, depth_limit
+    real(c_double), intent(in), optional :: penetration_warning
     logical, intent(in), optional :: edge_edge, adaptive
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
@@ -585,6 +586,7 @@ contains
       settings%penalty_factor = value_or(settings%penalty_factor, penalty_factor)
       settings%friction = value_or(settings%friction, friction)
       settings%depth_limit = value_or(settings%depth_limit, depth_limit)
+      settings%penetration_warning = value_or(settings%penetration_warning, penetration_warning)
       if (present(edge_edge)) settings%edge_edge = merge(1_c_int32_t, 0_c_int32_t, edge_edge)
       if (present(adaptive)) settings%adaptive = merge(1_c_int32_t, 0_c_int32_t, adaptive)
       status = cdfp_model_set_contact(this%handle%address, settings)

@@ -196,7 +196,8 @@ contains
     integer(int32) :: element
     integer :: i, j
 
-    call this%cohesive%find_open(this%topology, this%x(:, :this%n), this%stress, facets, tractions)
+    call this%cohesive%find_open(this%topology, this%x(:, :this%n), this%stress, facets, tractions, &
+                                 this%threads)
     if (size(facets, 2) == 0) return
     allocate (split(0))
     do i = 1, size(facets, 2)

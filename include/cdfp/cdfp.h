@@ -302,13 +302,14 @@ int32_t cdfp_model_set_load_callback(cdfp_model* model, cdfp_load_callback callb
 
 /** What `cdfp_model_get_contact` fills and `cdfp_model_set_contact` takes: get, change what differs, set. */
 typedef struct cdfp_contact_settings {
-  double cell_factor;    /**< w1: cell length over mean segment length */
-  double buffer_factor;  /**< w2: buffer over mean segment length */
-  double penalty_factor; /**< zeta in k = zeta K A^2 / V */
-  double friction;       /**< Coulomb coefficient */
-  double depth_limit;    /**< deepest penetration that counts, over the segment's element height */
-  int32_t edge_edge;     /**< 0: node-face pairs only */
-  int32_t adaptive;      /**< 0: a regular search whenever contact entities are new */
+  double cell_factor;         /**< w1: cell length over mean segment length */
+  double buffer_factor;       /**< w2: buffer over mean segment length */
+  double penalty_factor;      /**< zeta in k = zeta K A^2 / V */
+  double friction;            /**< Coulomb coefficient */
+  double depth_limit;         /**< deepest penetration that counts, over the segment's element height */
+  double penetration_warning; /**< share of that height from which a warning names the pair */
+  int32_t edge_edge;          /**< 0: node-face pairs only */
+  int32_t adaptive;           /**< 0: a regular search whenever contact entities are new */
 } cdfp_contact_settings;
 
 /** A facet set that may touch others and itself; without any the scene has no contact. */
@@ -578,7 +579,8 @@ int32_t cdfp_cohesive_set_parts(cdfp_cohesive* cohesive, const cdfp_topology* to
  *  next such call. */
 int32_t cdfp_cohesive_find_open(cdfp_cohesive* cohesive, const cdfp_topology* topology, int64_t nodes,
                                 const double* position, int64_t elements, const double* stress,
-                                const int32_t** facets, const double** tractions, int64_t* count);
+                                int32_t threads, const int32_t** facets, const double** tractions,
+                                int64_t* count);
 
 /** What `cdfp_topology_insert_cohesive` has reported, after each insertion and before `cdfp_cohesive_insert`:
  *  `new_nodes` (new_node_count, 2), `renumbered` (renumbered_count, 4). */

@@ -223,7 +223,7 @@ TEST_F(Fields, Motion) {
 
 TEST_F(Fields, Settings) {
   const double g[] = {1, 2, 3};
-  const cdfp_contact_settings contact_given = {1, 2, 3, 4, 5, 0, 0};
+  const cdfp_contact_settings contact_given = {1, 2, 3, 4, 5, 6, 0, 0};
   cdfp_contact_settings back = {};
   ASSERT_EQ(cdfp_model_set_title(handle_, "title"), CDFP_OK);
   ASSERT_EQ(cdfp_model_set_gravity(handle_, g), CDFP_OK);
@@ -232,7 +232,8 @@ TEST_F(Fields, Settings) {
   EXPECT_TRUE(back.edge_edge && back.adaptive);
   ASSERT_EQ(cdfp_model_set_contact(handle_, &contact_given), CDFP_OK);
   ASSERT_EQ(cdfp_model_get_contact(handle_, &back), CDFP_OK);
-  EXPECT_EQ((Vector{back.cell_factor, back.buffer_factor, back.depth_limit}), (Vector{1, 2, 5}));
+  EXPECT_EQ((Vector{back.cell_factor, back.buffer_factor, back.depth_limit, back.penetration_warning}),
+            (Vector{1, 2, 5, 6}));
   EXPECT_FALSE(back.edge_edge || back.adaptive);
   ASSERT_EQ(cdfp_model_set_end_time(handle_, 6), CDFP_OK);
   ASSERT_EQ(cdfp_model_set_fixed_step(handle_, 7), CDFP_OK);
