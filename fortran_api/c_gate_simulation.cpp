@@ -287,6 +287,23 @@ int32_t cdfp_simulation_first_crack(const cdfp_simulation* simulation, const cha
   });
 }
 
+int32_t cdfp_simulation_stage_count(const cdfp_simulation* simulation, int64_t* count) {
+  return guarded(__func__, [&] {
+    set(count, static_cast<int64_t>(Look(simulation)->summary().stages.size()), "count");
+  });
+}
+
+int32_t cdfp_simulation_stage(const cdfp_simulation* simulation, int64_t stage, double* seconds,
+                              int64_t* calls, char* text, int64_t capacity, int64_t* length) {
+  return guarded(__func__, [&] {
+    const Summary summary = Look(simulation)->summary();
+    need_number(stage, static_cast<int64_t>(summary.stages.size()), "stage");
+    set(seconds, summary.stages[stage].seconds, "seconds");
+    set(calls, int64_t{summary.stages[stage].calls}, "calls");
+    copy_text(summary.stages[stage].name, text, capacity, length);
+  });
+}
+
 int32_t cdfp_simulation_warning_count(const cdfp_simulation* simulation, int64_t* count) {
   return guarded(__func__, [&] {
     set(count, static_cast<int64_t>(Look(simulation)->summary().warnings.size()), "count");

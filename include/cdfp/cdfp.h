@@ -442,6 +442,10 @@ int32_t cdfp_simulation_summary(const cdfp_simulation* simulation, cdfp_summary*
  *  the facet in the undeformed mesh. */
 int32_t cdfp_simulation_first_crack(const cdfp_simulation* simulation, const char* part, double* time,
                                     int32_t* layer, double* position);
+/** Stages of the step: wall time so far and calls, and the name of the stage. */
+int32_t cdfp_simulation_stage_count(const cdfp_simulation* simulation, int64_t* count);
+int32_t cdfp_simulation_stage(const cdfp_simulation* simulation, int64_t stage, double* seconds,
+                              int64_t* calls, char* text, int64_t capacity, int64_t* length);
 int32_t cdfp_simulation_warning_count(const cdfp_simulation* simulation, int64_t* count);
 int32_t cdfp_simulation_warning(const cdfp_simulation* simulation, int64_t warning, char* text,
                                 int64_t capacity, int64_t* length);

@@ -278,6 +278,8 @@ contains
     real(dp), pointer :: x(:, :), v(:, :), f(:, :), m(:), history(:, :)
     integer :: done
     integer(int32) :: element
+    integer(int64) :: calls
+    character(len=:), allocatable :: stage
     real(dp) :: t
 
     call define(model)
@@ -316,6 +318,10 @@ contains
     call check(sim%finished(), 'the end')
     told = sim%summary()
     call check(sim%step_count() == told%steps .and. told%elements == 2 .and. told%threads == 1, 'summary')
+    call sim%get_stage(sim%stage_count(), stage, t, calls)
+    call check(stage == 'accelerate' .and. calls == told%steps .and. t > 0, 'the last stage of the step')
+    call sim%get_stage(0, stage, t, calls, stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'no stage -1')
     history => sim%history()
     call check(sim%history_column(1) == 'time_s' .and. size(history, 2) > 2, 'history')
     call check(same_bits(history(:1, size(history, 2):), reshape([sim%time()], [1, 1])), 'its last row')
