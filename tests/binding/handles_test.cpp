@@ -80,7 +80,7 @@ TEST(Handles, ManyThreadsEachWithItsOwn) {
 std::vector<double> pull_apart(int steps) {
   std::vector<double> x{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, all;
   x.insert(x.end(), x.begin(), x.begin() + 12);
-  std::vector<double> v(24, 0.0), mass(8, 0.01);
+  std::vector<double> v(24, 0.0), mass{1e6, 1e6, 1e6, 1e6, 0.01, 0.01, 0.01, 0.01};
   const std::int32_t corners[] = {4, 5, 6, 7, 0, 1, 2, 3};
   const double pull[] = {1e5, 0, 3e5};
   cdfp_cohesive* cohesive = nullptr;
