@@ -64,7 +64,9 @@ cdfp::CohesiveLaw cdfp::gate::law_of(const char* name, const cdfp_cohesive_law* 
           .stiffness = law->stiffness,
           .weibull_modulus = law->weibull_modulus,
           .weibull_area = law->weibull_area,
-          .seed = law->seed};
+          .seed = law->seed,
+          .rate_sensitivity = law->rate_sensitivity,
+          .reference_rate = law->reference_rate};
 }
 
 void cdfp::gate::set_callback(CohesiveLaw& law, cdfp_cohesive_callback callback, std::int32_t states,
@@ -193,6 +195,8 @@ int32_t cdfp_cohesive_law_default(cdfp_cohesive_law* law) {
             .stiffness = d.stiffness,
             .weibull_modulus = d.weibull_modulus,
             .weibull_area = d.weibull_area,
+            .rate_sensitivity = d.rate_sensitivity,
+            .reference_rate = d.reference_rate,
             .seed = d.seed,
             .kind = static_cast<int32_t>(d.kind)};
   });

@@ -5,6 +5,7 @@ module cdfp_c
   use cdfp_c_cohesive
   use cdfp_c_common
   use cdfp_c_contact
+  use cdfp_c_material
   use cdfp_c_mesh
   use cdfp_c_model
   use cdfp_c_simulation

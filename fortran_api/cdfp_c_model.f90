@@ -10,7 +10,7 @@ module cdfp_c_model
 
   type, bind(c) :: cdfp_cohesive_law
     real(c_double) :: strength, fracture_energy, mode_ratio, shear_ratio, friction, friction_exponent
-    real(c_double) :: internal_friction, stiffness, weibull_modulus, weibull_area
+    real(c_double) :: internal_friction, stiffness, weibull_modulus, weibull_area, rate_sensitivity, reference_rate
     integer(c_int64_t) :: seed
     integer(c_int32_t) :: kind
   end type

@@ -328,15 +328,17 @@ contains
   !> coefficient between closed faces (0), exponent of its growth with damage (1), share of a pressure that
   !> holds the shear on a facet back (0). `kind`: CDFP_LINEAR (if absent), CDFP_CAMACHO_ORTIZ, CDFP_BILINEAR
   !> (with `stiffness`, Pa/m) or CDFP_USER. With `weibull_modulus` the strength scatters over the facets by
-  !> `seed`; `weibull_area` (m2) is what `strength` belongs to.
+  !> `seed`; `weibull_area` (m2) is what `strength` belongs to. With `rate_sensitivity` c the traction is
+  !> multiplied by 1 + c ln(1 + opening rate / `reference_rate` (m/s)).
   subroutine add_cohesive_law(this, name, strength, fracture_energy, mode_ratio, shear_ratio, friction, &
                               friction_exponent, internal_friction, kind, stiffness, weibull_modulus, &
-                              weibull_area, seed, stat, errmsg)
+                              weibull_area, seed, rate_sensitivity, reference_rate, stat, errmsg)
     class(cdfp_model), intent(in) :: this
     character(len=*), intent(in) :: name
     real(c_double), intent(in) :: strength, fracture_energy
     real(c_double), intent(in), optional :: mode_ratio, shear_ratio, friction, friction_exponent
     real(c_double), intent(in), optional :: internal_friction, stiffness, weibull_modulus, weibull_area
+    real(c_double), intent(in), optional :: rate_sensitivity, reference_rate
     integer(c_int32_t), intent(in), optional :: kind
     integer(c_int64_t), intent(in), optional :: seed
     integer, intent(out), optional :: stat
@@ -346,15 +348,17 @@ contains
                                             new_cohesive_law(strength, fracture_energy, mode_ratio, shear_ratio, &
                                                              friction, friction_exponent, internal_friction, &
                                                              kind, stiffness, weibull_modulus, weibull_area, &
-                                                             seed)), stat, errmsg)
+                                                             seed, rate_sensitivity, reference_rate)), stat, errmsg)
   end subroutine
 
   !> The same as a law for the services: `cdfp_cohesive` and the laws at points.
   function new_cohesive_law(strength, fracture_energy, mode_ratio, shear_ratio, friction, friction_exponent, &
-                            internal_friction, kind, stiffness, weibull_modulus, weibull_area, seed) result(law)
+                            internal_friction, kind, stiffness, weibull_modulus, weibull_area, seed, &
+                            rate_sensitivity, reference_rate) result(law)
     real(c_double), intent(in) :: strength, fracture_energy
     real(c_double), intent(in), optional :: mode_ratio, shear_ratio, friction, friction_exponent
     real(c_double), intent(in), optional :: internal_friction, stiffness, weibull_modulus, weibull_area
+    real(c_double), intent(in), optional :: rate_sensitivity, reference_rate
     integer(c_int32_t), intent(in), optional :: kind
     integer(c_int64_t), intent(in), optional :: seed
     type(cdfp_cohesive_law) :: law
@@ -373,6 +377,8 @@ contains
     law%weibull_modulus = value_or(law%weibull_modulus, weibull_modulus)
     law%weibull_area = value_or(law%weibull_area, weibull_area)
     if (present(seed)) law%seed = seed
+    law%rate_sensitivity = value_or(law%rate_sensitivity, rate_sensitivity)
+    law%reference_rate = value_or(law%reference_rate, reference_rate)
   end function
 
   !> The traction of a CDFP_USER law: `callback` is `c_funloc` of a `bind(c)` subroutine with the arguments

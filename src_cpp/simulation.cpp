@@ -4,7 +4,8 @@
 //   -----------------+------------------------------+-------------------------------------------
 //   drift            | velocity                     | position, rigid bodies; force = 0
 //   material         | position, users' laws        | stress of users' laws, deleted elements
-//   internal_force   | position, material state     | force, material state, critical elements
+//   internal_force   | position, material state     | force, material state, critical elements; not of blocks
+//                    |                              | of elements that have not moved yet
 //   criterion        | critical elements, stress    | facets that open
 //   insertion        | facets that open             | topology, nodes, element corners, cohesive elements
 //   gravity, load    | mass, position, velocity     | force
@@ -259,12 +260,12 @@ void Simulation::Stages::list_stages() {
     });
   }
   add_stage(forces_, "internal_force",
-            [this] { elements.add_force(nodes.position, nodes.force, step_size, threads); });
+            [this] { elements.add_force(nodes.position, nodes.force, step_size, threads, nodes.reference); });
   if (criterion) {
     add_stage(forces_, "criterion", [this] {
       criterion->find(
-          elements.critical_elements(), topology, nodes.position,
-          [this](Index e) { return elements.stress(e, nodes.position); }, open_, threads);
+          elements.critical_elements(), elements.critical_stresses(nodes.position, threads), topology,
+          nodes.position, [this](Index e) { return elements.stress(e, nodes.position); }, open_, threads);
     });
     add_stage(forces_, "insertion", [this] { insert_open_facets(); });
   }

@@ -213,11 +213,13 @@ typedef struct cdfp_cohesive_law {
   double friction;          /**< Coulomb coefficient between closed faces */
   double friction_exponent; /**< of the growth of friction with damage */
   double internal_friction; /**< share of a pressure that holds the shear on a facet back */
-  double stiffness;       /**< Pa/m: of a bilinear law before its strength; steepest slope of a user's law */
-  double weibull_modulus; /**< of the scatter of the strength over facets; 0: none */
-  double weibull_area;    /**< m2 that `strength` belongs to; 0: each facet's own area */
-  int64_t seed;           /**< of the scatter */
-  int32_t kind;           /**< CDFP_LINEAR and the like */
+  double stiffness;        /**< Pa/m: of a bilinear law before its strength; steepest slope of a user's law */
+  double weibull_modulus;  /**< of the scatter of the strength over facets; 0: none */
+  double weibull_area;     /**< m2 that `strength` belongs to; 0: each facet's own area */
+  double rate_sensitivity; /**< c of the factor 1 + c ln(1 + opening rate / reference_rate); 0: none */
+  double reference_rate;   /**< m/s */
+  int64_t seed;            /**< of the scatter */
+  int32_t kind;            /**< CDFP_LINEAR and the like */
 } cdfp_cohesive_law;
 
 int32_t cdfp_cohesive_law_default(cdfp_cohesive_law* law);

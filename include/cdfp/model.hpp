@@ -125,7 +125,14 @@ struct CohesiveLaw {
   double weibull_modulus = 0;
   double weibull_area = 0;  ///< m2 that `strength` belongs to; 0: each facet's own (no size effect)
   std::int64_t seed = 0;
-  int states = 0;  ///< numbers that a user's law keeps at each point
+  /// c: while it opens further, at the rate v of the effective opening, the traction is that of the law times
+  /// 1 + c ln(1 + v / reference_rate), and so are the peak and the energy that it dissipates; at rest it is
+  /// the law. Facets open at `strength`. A factor on the traction by the opening rate: Glennie 1971 (J. Mech.
+  /// Phys. Solids 19, 255) and Kubair, Geubelle, Huang 2003 (Eng. Fract. Mech. 70, 685); its logarithm:
+  /// Johnson and Cook 1985. Not for user laws. 0: no rate dependence.
+  double rate_sensitivity = 0;
+  double reference_rate = 0;  ///< m/s
+  int states = 0;             ///< numbers that a user's law keeps at each point
   /// A user's law; never called from two threads at once by one simulation.
   std::function<void(const CohesivePoints&)> callback = nullptr;
 };

@@ -19,7 +19,15 @@ void check_law(const CohesiveLaw& law) {
   require_not_negative(law.weibull_area, where + ": weibull_area");
   require(law.weibull_area == 0 || law.weibull_modulus > 0,
           where + ": weibull_area means nothing without scatter; give weibull_modulus or leave it out");
+  require_not_negative(law.rate_sensitivity, where + ": rate_sensitivity");
+  require_not_negative(law.reference_rate, where + ": reference_rate");
+  require(
+      (law.rate_sensitivity > 0) == (law.reference_rate > 0),
+      where + ": rate_sensitivity and reference_rate mean nothing without one another; give both or none");
   const bool user = law.kind == CohesiveKind::user;
+  require(
+      !user || law.rate_sensitivity == 0,
+      where + ": rate_sensitivity is not of user laws; they are told the step and may keep the last opening");
   const bool bilinear = law.kind == CohesiveKind::bilinear;
   require(
       law.kind != CohesiveKind::camacho_ortiz || law.mode_ratio == 1,

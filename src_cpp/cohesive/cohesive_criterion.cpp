@@ -114,7 +114,7 @@ void CohesiveCriterion::find(const Topology& topology, std::span<const double> p
   open.clear();
   if (kept_->candidates.empty()) return;
   kept_->criterion.find(
-      kept_->candidates, topology, position,
+      kept_->candidates, {}, topology, position,
       [&](Index e) {
         const double* s = &stress[6 * static_cast<std::size_t>(e)];
         return Mat3{{Vec3{s[0], s[3], s[5]}, Vec3{s[3], s[1], s[4]}, Vec3{s[5], s[4], s[2]}}};

@@ -12,6 +12,7 @@
 #include "cdfp/error.hpp"
 #include "cohesive/cluster_solver.hpp"
 #include "cohesive/clusters.hpp"
+#include "cohesive/facet_frame.hpp"
 #include "cohesive/law.hpp"
 #include "cohesive/user_points.hpp"
 
@@ -26,6 +27,20 @@ constexpr double kPlainStiffness = 0.5;
 constexpr double kUserStiffness = 0.05;  ///< of a user's law, whose kinks must not feed energy in either
 /// Opening over reach, at most, at which that spring carries the strength.
 constexpr double kRigidOpening = 0.01;
+/// A broken face that is pressed hands its load over to the contact between free faces: its spring gives way
+/// by this share a step, slow enough for the load to move without a wave, until next to nothing is left.
+constexpr double kGivesWay = 0.9;
+constexpr int kHandOverSteps = 130;
+/// The traction that holds new pairs together is found to this share of the strength.
+constexpr double kCarried = 1e-10;
+constexpr double kTieStiffness = 1e5;
+constexpr double kClusterTolerance = 1e-9;  ///< of the reach
+constexpr int kCarriedRounds = 12;
+/// Share of its turn in a step that a pressed face follows. Pressed pairs that have slid push past one
+/// another: where their direction followed every wave along the face, they would feed it.
+constexpr double kPressedTurn = 0.01;
+/// A moment below this share of the facet's fracture energy waits until it has grown.
+constexpr double kLeastCouple = 1e-9;
 constexpr std::int64_t kGrain = 64;
 
 struct Law {
@@ -40,6 +55,7 @@ struct Point {
   double area = 0;
   double strength = 0;  ///< Pa
   Softening softening;
+  Vec3 carried;        ///< Pa, when the pair came to be
   Vec3 preload;        ///< m, opening at which the law is when the nodes have not moved
   double largest = 0;  ///< effective opening
   double contact = 0;  ///< Pa/m; 0 until the pair exists
@@ -52,6 +68,8 @@ struct Point {
   double taken = 0;    ///< J/m2, of `work`, less what was stored, until the facet broke
   double ahead = 0;    ///< J/m2, of the work above: from the step to the half step ahead of it
   double energy = 0;   ///< J/m2 that the law dissipates, over its growth in m
+  double by_rate = 0;  ///< J/m2, dissipated by the part of the traction that the rate adds
+  Vec3 couple;         ///< N m, of the cohesive forces on the pair at the last step
   double lent = 0;     ///< J/m2, of the spring's load at insertion, which no work had put in
   Index user = kNone;  ///< place among its user's law's points
 
@@ -60,6 +78,11 @@ struct Point {
   double stored_by_nodes() const { return stored - (lent - (0.5 * softening.scale - energy) * growth); }
   bool broken() const { return largest >= softening.reach; }
 };
+
+/// Of the moment of a pair's tractions. What contact overlaps is no arm.
+Vec3 arm_of(Vec3 opening, Vec3 normal) {
+  return opening - std::min(0.0, dot(opening, normal)) * normal;
+}
 
 struct Facet {
   Index element = kNone;
@@ -72,6 +95,8 @@ struct Facet {
   bool bond = false;
   bool live = false;
   bool broken = false;
+  Vec3 couple;        ///< N m, of the law at the openings of the step
+  int hand_over = 0;  ///< steps for which a broken face still holds what presses it
   double insertion_time = 0;
   double broken_time = std::numeric_limits<double>::infinity();
 };
@@ -92,7 +117,15 @@ struct CohesiveZone::Points {
   void add_force(const NodeArrays& nodes, double step, double time, const Threads& threads);
   void turn(Index facet, const NodeArrays& nodes);
   void ask_users(const NodeArrays& nodes, double step, double time);
-  void start(Point& point, const Facet& facet, const NodeArrays& nodes, double step) const;
+  FacetFrame frame_of(Index facet, const NodeArrays& nodes);
+  void balance_couples(const NodeArrays& nodes);
+  void book_couples(const NodeArrays& nodes, double step);
+  Vec3 couple_now(Index facet, const NodeArrays& nodes) const;
+  void find_couples();
+  double yields(const Point& point, const NodeArrays& nodes, double step) const;
+  void carry(const Clusters::Cluster& cluster, const NodeArrays& nodes, double step, ClusterSolver& work);
+  void load_tie(Point& point, const NodeArrays& nodes, double step, ClusterSolver::Point& p) const;
+  void start(Point& point, const Facet& facet, const NodeArrays& nodes, double step);
   void solve_cluster(const Clusters::Cluster& cluster, const NodeArrays& nodes, double step,
                      ClusterSolver& work);
   void load_cluster(const Clusters::Cluster& cluster, const NodeArrays& nodes, double step,
@@ -104,7 +137,9 @@ struct CohesiveZone::Points {
                      ClusterSolver& work);
   double opened_to(const Point& point, const Increment& i, const Split& at, std::int32_t law) const;
   double stored_in(const Point& point, const Increment& i, const Split& at, std::int32_t law) const;
-  void retire_broken(double time);
+  void mark_broken(double time);
+  bool is_pressed(Index facet) const;
+  void dismiss();
   Energy energy_of(Index facet) const;
 
   std::span<const Point> points_of(Index facet) const {
@@ -123,11 +158,19 @@ struct CohesiveZone::Points {
   Clusters clusters;
   std::vector<ClusterSolver> work;  ///< one a thread
   std::vector<Index> broke;
+  struct Couple {
+    Index facet;
+    Vec3 held;  ///< N m, by the facet's frame in this step
+    Vec3 left;  ///< N m, of the cohesive forces in the last step, that the law at its openings missed
+  };
+  std::vector<Couple> couples;
+  std::array<NodePair, 4> pairs;
   std::vector<Index> broken_elements;
   Index broken_count = 0;
   Index bulk_count = 0;
   Energy closed;               ///< of facets that left `live`
   double ahead_of_closed = 0;  ///< J, as `Point::ahead`, of those that left in the last step
+  double ahead_of_couples = 0;
 };
 
 CohesiveZone::Points::Points(const Model& model, CohesiveScheme chosen)
@@ -211,6 +254,7 @@ void CohesiveZone::Points::give_law(Point& point, const Facet& facet) {
     point.energy = 0.5 * point.softening.scale;
     return;
   }
+  point.carried = facet.traction;
   point.strength = effective_traction(facet.traction, facet.normal, law.shear_ratio);
   if (!(point.strength > 0)) point.strength = law.strength;
   point.softening = {point.strength, 2 * law.fracture_energy / point.strength};
@@ -242,64 +286,127 @@ void CohesiveZone::Points::revive(Index facet) {
   live.push_back(facet);
 }
 
-/// The normal of the middle face as it is now.
+/// The normal of the middle face as it is now; what the points keep as vectors turns with it.
 void CohesiveZone::Points::turn(Index facet, const NodeArrays& nodes) {
   Facet& f = facets[facet];
   const std::span<const Point> p = points_of(facet);
   const auto middle = [&](int c) { return nodes.x(p[c].upper) + nodes.x(p[c].lower); };
   const Vec3 doubled = f.corners == 4 ? cross(middle(2) - middle(0), middle(3) - middle(1))
                                       : cross(middle(1) - middle(0), middle(2) - middle(0));
+  const Vec3 before = f.normal;
   f.normal = (1 / norm(doubled)) * doubled;
+  if (is_pressed(facet)) f.normal = normalized(before + kPressedTurn * (f.normal - before));
+  const Vec3 turns = cross(before, f.normal);
+  const double bend = 1 / (1 + dot(before, f.normal));
+  for (Index c = 0; c < f.corners; ++c) {
+    Point& point = points[4 * static_cast<std::size_t>(facet) + c];
+    for (Vec3* kept : {&point.preload, &point.slip}) {
+      const Vec3 moved = cross(turns, *kept);
+      *kept += moved + bend * cross(turns, moved);
+    }
+    if (f.hand_over > 0) point.contact *= kGivesWay;
+  }
+  if (f.hand_over > 0) --f.hand_over;
 }
 
-/// A pair that has just come to be carries the facet's traction before it moves: its springs, stiff as its
-/// nodes' inertia asks for, are loaded by that much. The softening line starts there, and takes the fracture
-/// energy from the nodes.
-void CohesiveZone::Points::start(Point& point, const Facet& facet, const NodeArrays& nodes,
-                                 double step) const {
-  const double inertia = 1 / nodes.mass[point.upper] + 1 / nodes.mass[point.lower];
-  const double yields = 0.5 * step * step * inertia * point.area;  // m/Pa
+/// m/Pa: how far the pair's nodes part in half a step.
+double CohesiveZone::Points::yields(const Point& point, const NodeArrays& nodes, double step) const {
+  return 0.5 * step * step * (1 / nodes.mass[point.upper] + 1 / nodes.mass[point.lower]) * point.area;
+}
+
+/// A spring without limit in place of a pair that has just come to be.
+void CohesiveZone::Points::load_tie(Point& point, const NodeArrays& nodes, double step,
+                                    ClusterSolver::Point& p) const {
+  Increment& i = p.increment;
+  const double reach = i.softening.reach;
+  i = {};
+  i.normal = {1, 0, 0};
+  i.softening.reach = reach;
+  i.given = point.carried;
+  i.unloading = kTieStiffness / yields(point, nodes, step);
+  i.linear = true;
+  i.area = point.area;
+  p.now = {};
+}
+
+/// What pairs that have just come to be must carry for their nodes to go on as one, which is what the mesh
+/// carried there before (Papoulia, Sam, Vavasis 2003). Where several share a node, the tractions that differ
+/// least from those of their facets.
+void CohesiveZone::Points::carry(const Clusters::Cluster& cluster, const NodeArrays& nodes, double step,
+                                 ClusterSolver& w) {
+  const std::span<const Clusters::Slot> slots = clusters.slots(cluster);
+  load_cluster(cluster, nodes, step, w);
+  for (int round = 0; round < kCarriedRounds; ++round) {
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      Point& point = points[slots[i].point];
+      if (!(point.contact > 0)) load_tie(point, nodes, step, w.points[i]);
+    }
+    w.solve(step, 1e-2 * kClusterTolerance);
+    double change = 0;
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      Point& point = points[slots[i].point];
+      if (point.contact > 0) continue;
+      change = std::max(change, norm(w.points[i].reaction.traction - point.carried) / point.strength);
+      point.carried = w.points[i].reaction.traction;
+    }
+    if (change < kCarried) break;
+  }
+}
+
+/// A pair that has just come to be carries its traction before it moves: its springs, stiff as its nodes'
+/// inertia asks for, are loaded by that much. The softening line starts at the facet's strength, or at that
+/// traction if it is more, and takes the fracture energy from the nodes.
+void CohesiveZone::Points::start(Point& point, const Facet& facet, const NodeArrays& nodes, double step) {
+  const double soft = yields(point, nodes, step);
   if (scheme == CohesiveScheme::plain) {
-    point.contact = kPlainStiffness / yields;
+    point.contact = kPlainStiffness / soft;
     return;
   }
-  point.contact = kStiffness / yields;
-  const CohesiveKind kind = laws[facet.law].given.kind;
-  if (kind == CohesiveKind::bilinear) return;
-  if (kind == CohesiveKind::user) {
-    const double pressing = std::min(0.0, dot(facet.traction, facet.normal));
-    point.preload = (pressing / point.contact) * facet.normal;
-    point.pressed = 0.5 * pressing * pressing / point.contact;
-    point.heat = -point.pressed;
-    return;
-  }
-  const double reach = point.softening.reach;
-  point.largest = std::min(kRigidOpening * reach, point.strength / point.contact);
-  point.softening.start = point.largest;
-  point.softening.reach = reach + point.largest;
-  point.softening.scale = point.strength * point.softening.reach / reach;
-  const Split carried(facet.traction, facet.normal);
-  const double stiffness = carried.n < 0 ? point.contact : point.strength / point.largest;
-  point.preload = (carried.n / stiffness) * facet.normal +
-                  (point.largest / (point.strength * laws[facet.law].weights.traction)) * carried.t;
-  const Split at(point.preload, facet.normal);
-  point.stored = 0.5 * point.strength / point.largest * laws[facet.law].weights.quadratic(at.n, at.t2());
-  point.lent = point.stored;
-  point.pressed = at.n < 0 ? 0.5 * point.contact * at.n * at.n : 0.0;
+  point.contact = kStiffness / soft;
+  const Law& law = laws[facet.law];
+  if (law.given.kind == CohesiveKind::bilinear) return;
+  const Split carried(point.carried, facet.normal);
+  const double pressing = std::min(0.0, carried.n);
+  point.pressed = 0.5 * pressing * pressing / point.contact;
   point.heat = -point.pressed;
+  if (law.given.kind == CohesiveKind::user) {
+    point.preload = (pressing / point.contact) * facet.normal;
+    users[facet.law].carry(point.user, point.carried - pressing * facet.normal);
+    return;
+  }
+  const double load = effective_traction(point.carried, facet.normal, law.given.shear_ratio);
+  point.strength = std::max(point.strength, load);
+  const double reach = 2 * law.given.fracture_energy / point.strength;
+  const double share = load / point.strength;
+  Softening& softening = point.softening;
+  softening.start = std::min(kRigidOpening * reach, point.strength / point.contact);
+  softening.reach = reach + share * share * softening.start;
+  softening.scale = point.strength * softening.reach / (softening.reach - softening.start);
+  point.energy = 0.5 * point.strength * reach / (softening.reach - softening.start);
+  point.largest = softening.start;
+  const double rigid = point.strength / softening.start;
+  point.preload = (carried.n / (carried.n < 0 ? point.contact : rigid)) * facet.normal +
+                  (1 / (rigid * law.weights.traction)) * carried.t;
+  const Split at(point.preload, facet.normal);
+  point.stored = 0.5 * rigid * law.weights.quadratic(at.n, at.t2());
+  point.lent = point.stored;
 }
 
 void CohesiveZone::Points::solve_cluster(const Clusters::Cluster& cluster, const NodeArrays& nodes,
                                          double step, ClusterSolver& w) {
-  for (const Clusters::Slot& slot : clusters.slots(cluster)) {
-    Point& point = points[slot.point];
-    if (!(point.contact > 0)) start(point, facets[slot.point / 4], nodes, step);
+  const std::span<const Clusters::Slot> slots = clusters.slots(cluster);
+  const auto is_new = [this](const Clusters::Slot& slot) { return !(points[slot.point].contact > 0); };
+  if (std::any_of(slots.begin(), slots.end(), is_new)) {
+    if (scheme == CohesiveScheme::mean_traction) carry(cluster, nodes, step, w);
+    for (const Clusters::Slot& slot : slots) {
+      if (is_new(slot)) start(points[slot.point], facets[slot.point / 4], nodes, step);
+    }
   }
   load_cluster(cluster, nodes, step, w);
   if (scheme == CohesiveScheme::plain) {
     solve_plain(cluster, step, w);
   } else {
-    w.solve(step);
+    w.solve(step, kClusterTolerance);
   }
   ++w.solved;
   store_cluster(cluster, nodes, step, w);
@@ -352,14 +459,10 @@ void CohesiveZone::Points::load_point(const Clusters::Slot& slot, double step, C
   } else {
     i.given = users[facet.law].traction(point.user);
   }
-  if (facet.broken) return;
+  i.rate = {law.given.rate_sensitivity, step * law.given.reference_rate};
+  if (facet.broken && facet.hand_over == 0) return;
   i.contact = point.contact;
-  // The elastic slip stays in the face when it turns.
-  const double length = norm(point.slip);
-  if (length > 0) {
-    const Vec3 turned = point.slip - dot(point.slip, facet.normal) * facet.normal;
-    i.slip = (length / norm(turned)) * turned;
-  }
+  i.slip = point.slip - dot(point.slip, facet.normal) * facet.normal;
   if (law.given.friction > 0) {
     i.friction = law.given.friction *
                  friction_share(point.softening.damage(point.largest), law.given.friction_exponent);
@@ -375,14 +478,16 @@ void CohesiveZone::Points::solve_plain(const Clusters::Cluster& cluster, double 
     ClusterSolver::Point& p = w.points[s];
     Increment& i = p.increment;
     const Split at(p.now, i.normal);
-    i.largest = std::max(i.largest, i.weights.opening(at.n, at.t2()));
+    const double r = i.weights.opening(at.n, at.t2());
+    const double largest = std::max(i.largest, r);
     p.reaction = {};
     if (points[slots[s].point].user != kNone) {
       p.reaction.traction = i.given;
-    } else if (i.largest == 0) {
+    } else if (largest == 0) {
       p.reaction.traction = facets[slots[s].point / 4].traction;
     } else {
-      const double k = i.softening.stiffness(i.largest);
+      double k = i.softening.stiffness(largest);
+      if (r > i.largest && i.rate.sensitivity > 0) k *= 1 + i.rate.excess(r - i.largest);
       p.reaction.traction = k * (std::max(at.n, 0.0) * i.normal + i.weights.traction * at.t);
     }
     if (at.n < 0 && i.contact > 0) {
@@ -441,8 +546,10 @@ void CohesiveZone::Points::store_cluster(const Clusters::Cluster& cluster, const
     const Split at(to, i.normal);
 
     const bool whole = !point.broken();
-    if (whole && point.user == kNone && i.weights.opening(at.n, at.t2()) > point.largest) {
+    const double r = i.weights.opening(at.n, at.t2());
+    if (whole && point.user == kNone && r > point.largest) {
       point.growth += weighted_growth(i.weights, i.normal, from, to, point.largest, point.softening.reach);
+      if (!i.linear) point.by_rate += i.rate_work(at, r);
     }
     point.largest = opened_to(point, i, at, facets[slots[s].point / 4].law);
     if (whole && point.broken()) w.broke.push_back(slots[s].point);
@@ -458,6 +565,8 @@ void CohesiveZone::Points::store_cluster(const Clusters::Cluster& cluster, const
     point.pressed = pressed;
     point.slip = reaction.slip;
     point.ahead = (0.5 * step) * dot(reaction.traction, ahead);
+    const Vec3 opening = nodes.x(members[p.upper]) - nodes.x(members[p.lower]);
+    point.couple = i.area * cross(arm_of(opening, i.normal), reaction.traction - closed_face);
   }
 }
 
@@ -467,7 +576,7 @@ void CohesiveZone::Points::add_force(const NodeArrays& nodes, double step, doubl
   ahead_of_closed = 0;
   clusters.update([this](Index p) {
     const Point& point = points[p];
-    const bool lost = point.broken() && facets[p / 4].broken;
+    const bool lost = point.broken() && facets[p / 4].broken && facets[p / 4].hand_over == 0;
     return lost ? NodePair{} : NodePair{point.upper, point.lower};
   });
   work.resize(std::max<std::size_t>(work.size(), threads.count()));
@@ -477,6 +586,7 @@ void CohesiveZone::Points::add_force(const NodeArrays& nodes, double step, doubl
                        for (std::int64_t k = begin; k < end; ++k) turn(live[k], nodes);
                      });
   ask_users(nodes, step, time);
+  balance_couples(nodes);
   const std::span<const Clusters::Cluster> all = clusters.all();
   threads.for_ranges(static_cast<std::int64_t>(all.size()), kGrain,
                      [&](std::int64_t begin, std::int64_t end) {
@@ -485,7 +595,10 @@ void CohesiveZone::Points::add_force(const NodeArrays& nodes, double step, doubl
                          if (all[k].slots > 0) solve_cluster(all[k], nodes, step, w);
                        }
                      });
-  retire_broken(time);
+  book_couples(nodes, step);
+  find_couples();
+  mark_broken(time);
+  dismiss();
 }
 
 /// Users' laws say their tractions at the openings of the step, in one call each.
@@ -507,44 +620,142 @@ void CohesiveZone::Points::ask_users(const NodeArrays& nodes, double step, doubl
   }
 }
 
-/// Facets whose last point broke leave the step.
-void CohesiveZone::Points::retire_broken(double time) {
+FacetFrame CohesiveZone::Points::frame_of(Index facet, const NodeArrays& nodes) {
+  const std::span<const Point> p = points_of(facet);
+  for (std::size_t c = 0; c < p.size(); ++c) pairs[c] = {p[c].upper, p[c].lower};
+  return FacetFrame({pairs.data(), p.size()}, nodes);
+}
+
+/// N m, of the law's tractions at the openings of the step.
+Vec3 CohesiveZone::Points::couple_now(Index facet, const NodeArrays& nodes) const {
+  const Facet& f = facets[facet];
+  const ModeWeights& weights = laws[f.law].weights;
+  Vec3 sum;
+  if (!f.live) return sum;
+  for (const Point& p : points_of(facet)) {
+    if (!p.exists() || p.broken()) continue;
+    const Vec3 opening = nodes.x(p.upper) - nodes.x(p.lower);
+    const Vec3 arm = arm_of(opening, f.normal);
+    if (p.user != kNone) {
+      sum += p.area * cross(arm, users[f.law].traction(p.user));
+      continue;
+    }
+    const Split at(opening + p.preload, f.normal);
+    const double largest = std::max(p.largest, weights.opening(at.n, at.t2()));
+    if (largest == 0) continue;
+    const Vec3 path = std::max(at.n, 0.0) * f.normal + weights.traction * at.t;
+    sum += (p.area * p.softening.stiffness(largest)) * cross(arm, path);
+  }
+  return sum;
+}
+
+/// The tractions' mean over the step is only known when these forces are: what the law at the step's openings
+/// misses of it follows one step later.
+void CohesiveZone::Points::balance_couples(const NodeArrays& nodes) {
+  for (Couple& couple : couples) {
+    Facet& facet = facets[couple.facet];
+    facet.couple = couple_now(couple.facet, nodes);
+    couple.held = couple.left + facet.couple;
+    double area = 0;
+    for (const Point& p : points_of(couple.facet)) area += p.area;
+    if (norm(couple.held) > kLeastCouple * area * laws[facet.law].given.fracture_energy) {
+      frame_of(couple.facet, nodes).add_couple(couple.held, nodes);
+    } else {
+      facet.couple -= couple.held;
+      couple.held = {};
+    }
+  }
+}
+
+/// The work of those couples, once the forces of the step are known.
+void CohesiveZone::Points::book_couples(const NodeArrays& nodes, double step) {
+  ahead_of_couples = 0;
+  const auto kick = [&](Index n) {
+    Vec3 change = (step / nodes.mass[n]) * nodes.f(n);
+    for (int d = 0; d < 3; ++d) {
+      if (nodes.held(n) >> d & 1) change[d] = 0;
+    }
+    return change;
+  };
+  for (const Couple& couple : couples) {
+    if (norm(couple.held) == 0) continue;
+    const FacetFrame frame = frame_of(couple.facet, nodes);
+    const Vec3 turned = frame.spin([&](Index n) { return step * (nodes.v(n) + 0.5 * kick(n)); });
+    const Vec3 ahead = frame.spin([&](Index n) { return (0.5 * step) * (nodes.v(n) + kick(n)); });
+    closed.dissipated -= dot(couple.held, turned);
+    ahead_of_couples -= dot(couple.held, ahead);
+  }
+}
+
+/// Those to hold in the next step.
+void CohesiveZone::Points::find_couples() {
+  couples.clear();
+  for (const Index f : live) {
+    Couple couple{f, {}, -facets[f].couple};
+    for (const Point& p : points_of(f)) couple.left += p.couple;
+    facets[f].couple = {};
+    couples.push_back(couple);
+  }
+}
+
+/// Facets whose last point broke are free faces from now on.
+void CohesiveZone::Points::mark_broken(double time) {
   broke.clear();
   for (ClusterSolver& w : work) {
     for (const Index p : w.broke) broke.push_back(p / 4);
     w.broke.clear();
   }
-  if (broke.empty()) return;
   std::sort(broke.begin(), broke.end());
   broke.erase(std::unique(broke.begin(), broke.end()), broke.end());
   std::erase_if(broke, [this](Index f) {
     const std::span<const Point> p = points_of(f);
     return std::any_of(p.begin(), p.end(), [](const Point& q) { return q.exists() && !q.broken(); });
   });
-  if (broke.empty()) return;
   for (const Index f : broke) {
+    Facet& facet = facets[f];
+    if (facet.broken) continue;
+    facet.broken = true;
+    facet.broken_time = time;
+    facet.hand_over = kHandOverSteps;
+    ++broken_count;
+    broken_elements.push_back(facet.element);
+  }
+}
+
+bool CohesiveZone::Points::is_pressed(Index facet) const {
+  const std::span<const Point> p = points_of(facet);
+  return std::any_of(p.begin(), p.end(), [](const Point& q) { return q.pressed > 0; });
+}
+
+/// Broken facets leave the step once nothing presses them, or the contact of free faces has taken over.
+void CohesiveZone::Points::dismiss() {
+  const auto is_lost = [this](Index f) {
+    const std::span<const Point> p = points_of(f);
+    const bool whole =
+        std::any_of(p.begin(), p.end(), [](const Point& q) { return q.exists() && !q.broken(); });
+    return facets[f].broken && !whole && (facets[f].hand_over == 0 || !is_pressed(f));
+  };
+  std::erase_if(live, [&](Index f) {
+    if (!is_lost(f)) return false;
     Facet& facet = facets[f];
     const Energy now = energy_of(f);
     closed.dissipated += now.dissipated;
     closed.friction += now.friction;
     closed.ga += now.ga;
     facet.live = false;
+    facet.hand_over = 0;
     for (Index c = 0; c < facet.corners; ++c) {
       Point& point = points[4 * static_cast<std::size_t>(f) + c];
       closed.friction += point.area * (point.stored_by_nodes() + point.pressed);
       ahead_of_closed += point.area * point.ahead;
       point.taken += point.work - point.stored_by_nodes();
-      point.lent = point.growth = point.work = point.stored = point.pressed = point.heat = point.ahead = 0;
-      point.slip = {};
+      point.lent = point.growth = point.by_rate = point.work = point.stored = point.pressed = point.heat =
+          point.ahead = 0;
+      point.slip = point.couple = {};
       if (point.exists()) clusters.touch(point.upper);
     }
-    if (facet.broken) continue;
-    facet.broken = true;
-    facet.broken_time = time;
-    ++broken_count;
-    broken_elements.push_back(facet.element);
-  }
-  std::erase_if(live, [this](Index f) { return !facets[f].live; });
+    return true;
+  });
 }
 
 CohesiveZone::Energy CohesiveZone::Points::energy_of(Index facet) const {
@@ -555,7 +766,7 @@ CohesiveZone::Energy CohesiveZone::Points::energy_of(Index facet) const {
     sum.dissipated += p.area * (p.work - stored);
     sum.friction += p.area * p.heat;
     // A user's law says by its work what it dissipates.
-    sum.ga += p.area * (p.user == kNone ? p.energy * p.growth : p.work - stored);
+    sum.ga += p.area * (p.user == kNone ? p.energy * p.growth + p.by_rate : p.work - stored);
   }
   return sum;
 }
@@ -657,7 +868,7 @@ Index CohesiveZone::broken_count() const {
 
 CohesiveZone::Energy CohesiveZone::energy() const {
   Energy sum = points_->closed;
-  sum.stored -= points_->ahead_of_closed;
+  sum.stored -= points_->ahead_of_closed + points_->ahead_of_couples;
   for (const Index f : points_->live) {
     const Energy e = points_->energy_of(f);
     sum.stored += e.stored;

@@ -200,6 +200,9 @@ void read_cohesive_laws(TomlTable& top, Model& model) {
     t.read("weibull_modulus", law.weibull_modulus, kPositive);
     t.read("weibull_area", law.weibull_area, kPositive);
     t.read("seed", law.seed);
+    t.read("rate_sensitivity", law.rate_sensitivity, kPositive);
+    if (law.rate_sensitivity > 0) t.require("reference_rate");
+    t.read("reference_rate", law.reference_rate, kPositive);
     t.finish();
     model.cohesive_laws.push_back(std::move(law));
   }

@@ -88,7 +88,7 @@ TEST(CohesiveElements, ForcesAreThoseOfTheZoneToTheBit) {
       body.set_velocity([&](Vec3 x) {
         const Vec3 c = x - Vec3{1.8e-3, 2e-3, 2.2e-3};
         return 10000 * (Vec3{c.x, 0.7 * c.y - 0.4 * c.x, 0.5 * c.z} +
-                       3e-4 * Vec3{pick(random), pick(random), pick(random)});
+                        3e-4 * Vec3{pick(random), pick(random), pick(random)});
       });
       body.step();
       for (int i = 0; i < 120; ++i) {
@@ -115,7 +115,8 @@ TEST(CohesiveElements, ForcesAreThoseOfTheZoneToTheBit) {
           EXPECT_EQ(point.damage == 1, point.largest >= point.reach);
         }
       }
-      EXPECT_NEAR(dissipated, elements.energy().dissipated, 1e-12 * dissipated) << "point by point";
+      EXPECT_NEAR(dissipated, elements.energy().dissipated, 1e-5 * dissipated)
+          << "point by point, but for the couples that hold the facets' frames";
     }
   }
 }
