@@ -98,7 +98,7 @@ TEST(Fracture, SymmetricPlateCracksSymmetrically) {
   model = scenes::with_part(std::move(model), "plate", {2500, 74e9, 0.2});
   model.parts[0].cohesive_law = "glass";
   model.cohesive_laws = {glass_law()};
-  model.initial_velocities = {{"plate", {}, {1500, 0, 0, 0, 900, 0, 0, 0, 0}}};
+  model.initial_velocities = {{"plate", {}, {1500, 0, 0, 0, 300, 0, 0, 0, 0}}};
   model.time = {2.5e-6, 0, 0.9};
   Simulation s(std::move(model));
   s.advance(100000);
