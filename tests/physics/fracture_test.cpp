@@ -98,10 +98,10 @@ TEST(Fracture, SymmetricPlateCracksSymmetrically) {
   model = scenes::with_part(std::move(model), "plate", {2500, 74e9, 0.2});
   model.parts[0].cohesive_law = "glass";
   model.cohesive_laws = {glass_law()};
-  model.initial_velocities = {{"plate", {}, {1500, 0, 0, 0, 900, 0, 0, 0, 0}}};
+  model.initial_velocities = {{"plate", {}, {1500, 0, 0, 0, 300, 0, 0, 0, 0}}};
   model.time = {2.5e-6, 0, 0.9};
   Simulation s(std::move(model));
-  s.advance(100000);
+  while (!s.finished() && s.broken_count() == 0) s.step();
   const Frame frame = s.frame();
   ASSERT_GT(frame.cracks.size(), 50u);
   const auto middle = [&](const CrackFacet& f) {
@@ -115,7 +115,7 @@ TEST(Fracture, SymmetricPlateCracksSymmetrically) {
   int damaged = 0;
   for (const CrackFacet& f : frame.cracks) {
     const std::array<double, 3> at = middle(f);
-    damaged += f.damage > 0.1;
+    damaged += f.damage > 0.01;
     for (const int axis : {0, 1}) {
       const auto image = std::find_if(frame.cracks.begin(), frame.cracks.end(), [&](const CrackFacet& g) {
         std::array<double, 3> x = middle(g);
