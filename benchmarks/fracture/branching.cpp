@@ -1,10 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <numbers>
-#include <random>
-#include <string>
 #include <vector>
 
 #include "fracture/cases.hpp"

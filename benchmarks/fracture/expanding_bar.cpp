@@ -1,10 +1,7 @@
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <random>
-#include <string>
-#include <vector>
 
 #include "fracture/cases.hpp"
 #include "fracture/report.hpp"
