@@ -105,6 +105,7 @@ struct Simulation::Stages {
   double external_work = 0;
   double initial_energy = 0;
   double wall_seconds = 0;
+  bool positions_are_new = false;  ///< set from outside since the last step
   Index nodes_initial = 0;
   Index segments_initial = 0;
 
@@ -286,6 +287,7 @@ void Simulation::Stages::list_stages() {
 void Simulation::Stages::step() {
   const auto begin = std::chrono::steady_clock::now();
   run(move_);
+  positions_are_new = false;
   time += step_size;
   ++steps;
   if (steps % kStepsBetweenEstimates == 0) choose_step();
@@ -435,6 +437,7 @@ void Simulation::Stages::set_state(std::vector<double>& field, std::span<const d
 void Simulation::Stages::set_positions(std::span<const double> values) {
   set_state(nodes.position, values, "positions");
   search_anew_ = true;
+  positions_are_new = true;
   choose_step();
   step_size = next_step_;
 }
@@ -703,14 +706,23 @@ std::vector<double> Simulation::stresses() const {
   const Stages& s = *stages_;
   const Index count = s.model.mesh.element_count();
   std::vector<double> all(6 * static_cast<std::size_t>(count));
+  const auto put = [&](std::int64_t e, const Mat3& m) {
+    double* out = &all[6 * static_cast<std::size_t>(e)];
+    out[0] = m(0, 0), out[1] = m(1, 1), out[2] = m(2, 2);
+    out[3] = m(0, 1), out[4] = m(1, 2), out[5] = m(2, 0);
+  };
   s.threads.for_ranges(count, 256, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t e = begin; e < end; ++e) {
-      const Mat3 m = s.elements.stress(static_cast<Index>(e), s.nodes.position);
-      double* out = &all[6 * static_cast<std::size_t>(e)];
-      out[0] = m(0, 0), out[1] = m(1, 1), out[2] = m(2, 2);
-      out[3] = m(0, 1), out[4] = m(1, 2), out[5] = m(2, 0);
+      put(e, s.elements.stress(static_cast<Index>(e), s.nodes.position));
     }
   });
+  // To the bit what the criterion has looked at.
+  if (s.criterion && !s.positions_are_new) {
+    const std::span<const Index> critical = s.elements.critical_elements();
+    for (std::size_t i = 0; i < critical.size(); ++i) {
+      put(critical[i], s.elements.last_critical_stresses()[i]);
+    }
+  }
   return all;
 }
 

@@ -192,6 +192,10 @@ std::span<const Index> ElementForce::critical_elements() const {
   return blocks_->critical;
 }
 
+std::span<const Mat3> ElementForce::last_critical_stresses() const {
+  return blocks_->critical_stress;
+}
+
 std::span<const Mat3> ElementForce::critical_stresses(std::span<const double> position,
                                                       const Threads& threads) {
   Blocks& b = *blocks_;

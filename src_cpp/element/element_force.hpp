@@ -66,6 +66,8 @@ class ElementForce {
 
   /// Mean Cauchy stress of each of them at `position`, Pa, with the material state as it is.
   std::span<const Mat3> critical_stresses(std::span<const double> position, const Threads& threads);
+  /// The same as the last call found them.
+  std::span<const Mat3> last_critical_stresses() const;
 
   /// Lists elements of a cracking part from this strength on (Pa) instead of its law's, where facets are
   /// weaker or stronger than that.
