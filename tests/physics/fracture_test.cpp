@@ -70,8 +70,8 @@ INSTANTIATE_TEST_SUITE_P(Elements, ThickBar,
                          testing::Values(ElementType::hexahedron, ElementType::tetrahedron));
 
 TEST_P(ThickBar, DissipatesTheLawsEnergyInMixedMode) {
-  // Pulled and wrung at once: the facets open and slide. Bricks at the paper's step; at theirs, three times as
-  // long, node pairs that part in one step are solved for with softer springs, which costs per cents.
+  // Pulled and wrung at once: the facets open and slide. Bricks at the paper's step; at theirs, three times
+  // as long, node pairs that part in one step are solved for with softer springs, which costs per cents.
   Model model;
   const double h = 1e-3;
   scenes::add_box(model.mesh, "bar", {16, 4, 4}, {16 * h, 4 * h, 4 * h});
