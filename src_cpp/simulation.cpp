@@ -4,7 +4,8 @@
 //   -----------------+------------------------------+-------------------------------------------
 //   drift            | velocity                     | position, rigid bodies; force = 0
 //   material         | position, users' laws        | stress of users' laws, deleted elements
-//   internal_force   | position, material state     | force, material state, critical elements
+//   internal_force   | position, material state     | force, material state, critical elements; not of blocks
+//                    |                              | of elements that have not moved yet
 //   criterion        | critical elements, stress    | facets that open
 //   insertion        | facets that open             | topology, nodes, element corners, cohesive elements
 //   gravity, load    | mass, position, velocity     | force
@@ -104,6 +105,7 @@ struct Simulation::Stages {
   double external_work = 0;
   double initial_energy = 0;
   double wall_seconds = 0;
+  bool positions_are_new = false;  ///< set from outside since the last step
   Index nodes_initial = 0;
   Index segments_initial = 0;
 
@@ -259,12 +261,12 @@ void Simulation::Stages::list_stages() {
     });
   }
   add_stage(forces_, "internal_force",
-            [this] { elements.add_force(nodes.position, nodes.force, step_size, threads); });
+            [this] { elements.add_force(nodes.position, nodes.force, step_size, threads, nodes.reference); });
   if (criterion) {
     add_stage(forces_, "criterion", [this] {
       criterion->find(
-          elements.critical_elements(), topology, nodes.position,
-          [this](Index e) { return elements.stress(e, nodes.position); }, open_, threads);
+          elements.critical_elements(), elements.critical_stresses(nodes.position, threads), topology,
+          nodes.position, [this](Index e) { return elements.stress(e, nodes.position); }, open_, threads);
     });
     add_stage(forces_, "insertion", [this] { insert_open_facets(); });
   }
@@ -285,6 +287,7 @@ void Simulation::Stages::list_stages() {
 void Simulation::Stages::step() {
   const auto begin = std::chrono::steady_clock::now();
   run(move_);
+  positions_are_new = false;
   time += step_size;
   ++steps;
   if (steps % kStepsBetweenEstimates == 0) choose_step();
@@ -385,15 +388,15 @@ void Simulation::Stages::search() {
 
 /// Over a drift a force does the work of its mean between the two ends.
 void Simulation::Stages::add_load() {
-  load_.assign(nodes.position.size(), 0.0);
-  model.load({nodes.count(), time, nodes.position.data(), nodes.velocity.data(), load_.data()});
+  load_.assign(nodes.force.begin(), nodes.force.end());
+  model.load({nodes.count(), time, nodes.position.data(), nodes.velocity.data(), nodes.force.data()});
   for (std::size_t i = 0; i < load_.size(); ++i) {
+    load_[i] = nodes.force[i] - load_[i];
     if (!std::isfinite(load_[i])) {
       throw Error(Status::diverged, "the load at node " + std::to_string(i / 3) +
                                         " is not a finite number at time " + std::to_string(1e6 * time) +
                                         " us; check the load callback");
     }
-    nodes.force[i] += load_[i];
   }
   if (steps > 0) external_work += 0.5 * step_size * load_work();
 }
@@ -434,6 +437,7 @@ void Simulation::Stages::set_state(std::vector<double>& field, std::span<const d
 void Simulation::Stages::set_positions(std::span<const double> values) {
   set_state(nodes.position, values, "positions");
   search_anew_ = true;
+  positions_are_new = true;
   choose_step();
   step_size = next_step_;
 }
@@ -696,6 +700,30 @@ std::span<const double> Simulation::masses() const {
 }
 Index Simulation::node_count() const {
   return stages_->nodes.count();
+}
+
+std::vector<double> Simulation::stresses() const {
+  const Stages& s = *stages_;
+  const Index count = s.model.mesh.element_count();
+  std::vector<double> all(6 * static_cast<std::size_t>(count));
+  const auto put = [&](std::int64_t e, const Mat3& m) {
+    double* out = &all[6 * static_cast<std::size_t>(e)];
+    out[0] = m(0, 0), out[1] = m(1, 1), out[2] = m(2, 2);
+    out[3] = m(0, 1), out[4] = m(1, 2), out[5] = m(2, 0);
+  };
+  s.threads.for_ranges(count, 256, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t e = begin; e < end; ++e) {
+      put(e, s.elements.stress(static_cast<Index>(e), s.nodes.position));
+    }
+  });
+  // To the bit what the criterion has looked at.
+  if (s.criterion && !s.positions_are_new) {
+    const std::span<const Index> critical = s.elements.critical_elements();
+    for (std::size_t i = 0; i < critical.size(); ++i) {
+      put(critical[i], s.elements.last_critical_stresses()[i]);
+    }
+  }
+  return all;
 }
 
 void Simulation::set_positions(std::span<const double> positions) {

@@ -83,7 +83,7 @@ class CohesiveCriterion {
   /// order xx yy zz xy yz zx. Throws `Error(bad_argument)` for arrays of other lengths and a stress that is
   /// not finite.
   void find(const Topology& topology, std::span<const double> position, std::span<const double> stress,
-            std::vector<Opening>& open) const;
+            std::vector<Opening>& open, int threads = 1);
 
  private:
   struct Kept;

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kIterations = 30;
 constexpr int kUndamped = 2;  ///< iterations before a correction that does not help is halved
+constexpr int kFlowSteps = 400;
 constexpr double kSoftened =
     0.01;  ///< of the stiffness, for good, where even a slow approach does not settle
 
@@ -90,8 +91,8 @@ double ClusterSolver::evaluate() {
   return size;
 }
 
-/// One Newton correction of `relative_` from the residuals and the stiffness.
-void ClusterSolver::correct() {
+/// One correction of `relative_` from the residuals and the stiffness: Newton's without `drag`.
+void ClusterSolver::correct(double drag) {
   const int n = static_cast<int>(nodes.size());
   const int columns = 3 * (n - 1);
   matrix_.resize(columns * columns + columns);
@@ -104,7 +105,7 @@ void ClusterSolver::correct() {
       const double* own_row = &stiffness_[(3 * a + i) * columns];
       const double* first_row = &stiffness_[i * columns];
       for (int j = 0; j < columns; ++j) matrix_[row * columns + j] = own * own_row[j] - first * first_row[j];
-      matrix_[row * columns + row] += 1;
+      matrix_[row * columns + row] += 1 + drag;
       right[row] = residual_[a][i];
     }
   }
@@ -140,10 +141,25 @@ bool ClusterSolver::iterate(double tolerance) {
   return evaluate<true>() <= tolerance;
 }
 
-void ClusterSolver::start(bool at_rest) {
-  for (std::size_t a = 1; a < nodes.size(); ++a) {
-    relative_[a] = at_rest ? nodes[a].behind - nodes[0].behind : nodes[a].free - nodes[0].free;
+void ClusterSolver::start() {
+  for (std::size_t a = 1; a < nodes.size(); ++a) relative_[a] = nodes[a].behind - nodes[0].behind;
+}
+
+/// Follows d relative / d tau = -residual by implicit steps (pseudo-transient continuation): where the
+/// traction falls faster than inertia gives way, Newton's method points anywhere, but the flow goes on to
+/// where the points have opened.
+bool ClusterSolver::flow(double tolerance) {
+  start();
+  double drag = 1;
+  double size = evaluate<true>();
+  for (int i = 0; i < kFlowSteps; ++i) {
+    if (size <= tolerance) return true;
+    if (!std::isfinite(size)) return false;
+    correct(drag);
+    const double previous = std::exchange(size, evaluate<true>());
+    drag = std::clamp(size < previous ? 0.5 * drag : 3 * drag, 1e-6, 1e3);
   }
+  return size <= tolerance;
 }
 
 /// Softer springs first, then step by step the true ones.
@@ -151,7 +167,7 @@ bool ClusterSolver::approach(double tolerance) {
   ++approached;
   stiff_.clear();
   for (const Point& p : points) stiff_.push_back(p.increment);
-  start(true);
+  start();
   bool settled = false;
   for (const double share : {0.01, 0.05, 0.2, 1.0}) {
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -174,9 +190,10 @@ void ClusterSolver::solve(double step, double share) {
   for (const Point& p : points) reach = std::min(reach, p.increment.softening.reach);
   const double tolerance = share * reach;
 
-  start(true);
+  start();
   bool settled = iterate(tolerance);
   if (!settled) settled = approach(tolerance);
+  if (!settled) settled = flow(tolerance);
   if (!settled) {
     ++softened;
     for (Point& p : points) p.increment.soften(kSoftened);
@@ -184,7 +201,7 @@ void ClusterSolver::solve(double step, double share) {
   }
   if (!settled) {
     ++fixed;
-    start(true);
+    start();
     for (Point& p : points) p.increment.freeze(opening(p));
     evaluate<true>();
     correct();

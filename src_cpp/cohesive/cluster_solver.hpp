@@ -46,11 +46,12 @@ class ClusterSolver {
 
  private:
   bool iterate(double tolerance);
+  bool flow(double tolerance);
   bool approach(double tolerance);
   template <bool Sloped>
   double evaluate();
-  void correct();
-  void start(bool at_rest);
+  void correct(double drag = 0);
+  void start();
   Vec3 opening(const Point& p) const;
 
   double half_ = 0;

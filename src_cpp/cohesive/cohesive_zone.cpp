@@ -35,6 +35,7 @@ constexpr int kHandOverSteps = 130;
 constexpr double kCarried = 1e-10;
 constexpr double kTieStiffness = 1e5;
 constexpr double kClusterTolerance = 1e-9;  ///< of the reach
+constexpr double kTieTolerance = 1e-10;     ///< of the reach; less is lost in rounding
 constexpr int kCarriedRounds = 12;
 /// Share of its turn in a step that a pressed face follows. Pressed pairs that have slid push past one
 /// another: where their direction followed every wave along the face, they would feed it.
@@ -341,7 +342,7 @@ void CohesiveZone::Points::carry(const Clusters::Cluster& cluster, const NodeArr
       Point& point = points[slots[i].point];
       if (!(point.contact > 0)) load_tie(point, nodes, step, w.points[i]);
     }
-    w.solve(step, 1e-2 * kClusterTolerance);
+    w.solve(step, kTieTolerance);
     double change = 0;
     for (std::size_t i = 0; i < slots.size(); ++i) {
       Point& point = points[slots[i].point];

@@ -43,29 +43,27 @@ double Criterion::least_norm(Index element) const {
              : std::numeric_limits<double>::infinity();
 }
 
-void Criterion::list(std::span<const Index> elements, const Scene& scene, const Threads& threads) {
+void Criterion::list(std::span<const Index> elements, std::span<const Mat3> stresses, const Scene& scene,
+                     const Threads& threads) {
   listed_.assign(elements.begin(), elements.end());
   stresses_.resize(listed_.size());
   norms_.resize(listed_.size());
   threads.for_ranges(std::ssize(listed_), kPiece, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
-      stresses_[i] = scene.stress(listed_[i]);
+      stresses_[i] = stresses.empty() ? scene.stress(listed_[i]) : stresses[i];
       norms_[i] = norm_of(stresses_[i]);
     }
   });
   for (std::size_t i = 0; i < listed_.size(); ++i) place_[listed_[i]] = static_cast<Index>(i);
 }
 
-void Criterion::leave_out_weak() {
-  std::size_t kept = 0;
+void Criterion::find_able() {
+  able_.clear();
+  is_able_.resize(listed_.size());
   for (std::size_t i = 0; i < listed_.size(); ++i) {
-    const bool able = norms_[i] >= least_norm(listed_[i]);
-    place_[listed_[i]] = able ? static_cast<Index>(kept) : kNone;
-    if (!able) continue;
-    listed_[kept] = listed_[i], stresses_[kept] = stresses_[i], norms_[kept] = norms_[i];
-    ++kept;
+    is_able_[i] = static_cast<std::uint8_t>(norms_[i] >= least_norm(listed_[i]));
+    if (is_able_[i] != 0) able_.push_back(listed_[i]);
   }
-  listed_.resize(kept);
 }
 
 void Criterion::forget() {
@@ -75,7 +73,7 @@ void Criterion::forget() {
 std::vector<Index> Criterion::with_neighbours(const Topology& topology) const {
   std::vector<Index> all;
   std::vector<VertexUse> around;
-  for (const Index e : listed_) {
+  for (const Index e : able_) {
     for (const Index node : topology.nodes(e)) {
       topology.elements_around_node(node, around);
       for (const VertexUse& use : around) {
@@ -113,13 +111,12 @@ void Criterion::look_at_facets(Index element, const Scene& scene, std::vector<Op
     const FacetUse use{element, f}, mate = scene.topology.mate(use);
     if (mate.element == kNone || mate.element >= scene.topology.bulk_count()) continue;
     if (strength_.part_of(mate.element) != strength_.part_of(element)) continue;
-    const bool is_listed = place_[mate.element] != kNone;
-    if (mate.element < element && is_listed) continue;  // its turn
+    const Index place = place_[mate.element];
+    if (mate.element < element && place != kNone && is_able_[place] != 0) continue;  // its turn
     const FacetUse lower = mate.element > element ? use : mate;
     const double strength = strength_.of(lower, std::max(element, mate.element));
     if (!nodal) {
-      const double mate_norm =
-          is_listed ? norms_[place_[mate.element]] : (1 + 1e-9) * least_norm(mate.element);
+      const double mate_norm = place != kNone ? norms_[place] : (1 + 1e-9) * least_norm(mate.element);
       if (0.5 * (own_norm + mate_norm) < (1 - 1e-9) * strength * std::min(1.0, law->shear_ratio)) continue;
     }
     const FacetNodes facet = scene.topology.facet_nodes(lower);
@@ -132,24 +129,27 @@ void Criterion::look_at_facets(Index element, const Scene& scene, std::vector<Op
   }
 }
 
-void Criterion::find(std::span<const Index> candidates, const Topology& topology,
-                     std::span<const double> position, const std::function<Mat3(Index)>& stress,
-                     std::vector<OpenFacet>& open, const Threads& threads) {
+void Criterion::find(std::span<const Index> candidates, std::span<const Mat3> candidate_stresses,
+                     const Topology& topology, std::span<const double> position,
+                     const std::function<Mat3(Index)>& stress, std::vector<OpenFacet>& open,
+                     const Threads& threads) {
   open.clear();
   if (candidates.empty()) return;
   const Scene scene{topology, position, stress};
-  list(candidates, scene, threads);
-  leave_out_weak();
+  list(candidates, candidate_stresses, scene, threads);
+  find_able();
   if (recovery_ == StressRecovery::nodal) {
     const std::vector<Index> wider = with_neighbours(topology);
     forget();
-    list(wider, scene, threads);
+    list(wider, {}, scene, threads);
+    is_able_.assign(wider.size(), 1);
+    able_ = wider;
   }
-  found_.resize((listed_.size() + kPiece - 1) / kPiece);
-  threads.for_ranges(std::ssize(listed_), kPiece, [&](std::int64_t begin, std::int64_t end) {
+  found_.resize((able_.size() + kPiece - 1) / kPiece);
+  threads.for_ranges(std::ssize(able_), kPiece, [&](std::int64_t begin, std::int64_t end) {
     std::vector<OpenFacet>& here = found_[begin / kPiece];
     here.clear();
-    for (std::int64_t i = begin; i < end; ++i) look_at_facets(listed_[i], scene, here);
+    for (std::int64_t i = begin; i < end; ++i) look_at_facets(able_[i], scene, here);
   });
   for (const std::vector<OpenFacet>& piece : found_) open.insert(open.end(), piece.begin(), piece.end());
   std::sort(open.begin(), open.end(),

@@ -1,6 +1,7 @@
 #include "element/element_force.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -14,32 +15,65 @@ namespace cdfp {
 struct ElementForce::Blocks : ElementBlocks {
   explicit Blocks(const Model& model);
 
-  void run(const Task& task, std::span<const double> position, std::span<double> force);
+  void run(const Task& task, std::span<const double> position, std::span<double> force,
+           std::span<const double> reference);
+  bool has_moved(const BlockGroup& group, std::size_t block, std::span<const double> position,
+                 std::span<const double> reference) const;
   void list_critical();
+  /// Place of a critical element in the list of them.
+  Index place_of_critical(Index element) const {
+    const auto word = static_cast<std::size_t>(element) / 64;
+    const std::uint64_t before = critical_set[word] & ((std::uint64_t{1} << (element % 64)) - 1);
+    return critical_before[word] + static_cast<Index>(std::popcount(before));
+  }
 
   std::vector<StepConstants> steps;         ///< one a group
   std::vector<std::uint64_t> critical_now;  ///< one a block, bit l: element l of the block
+  std::vector<std::uint8_t> is_awake;       ///< one a block
   std::vector<std::uint64_t> critical_set;  ///< one bit an element; empty if no part cracks
+  std::vector<Index> critical_before;       ///< in words before each
   std::vector<Index> critical;
+  std::vector<Mat3> critical_stress;
   std::vector<Index> deleted;  ///< by the last step of users' laws
 
   void remove(BlockGroup& group, std::size_t slot);
 };
 
 ElementForce::Blocks::Blocks(const Model& model)
-    : ElementBlocks(model), steps(groups.size()), critical_now(block_count, 0) {
+    : ElementBlocks(model), steps(groups.size()), critical_now(block_count, 0), is_awake(block_count, 0) {
   if (std::any_of(groups.begin(), groups.end(), [](const BlockGroup& g) { return g.plan.cracks; })) {
     critical_set.assign((places.size() + 63) / 64, 0);
+    critical_before.assign(critical_set.size(), 0);
   }
 }
 
-void ElementForce::Blocks::run(const Task& task, std::span<const double> position, std::span<double> force) {
+void ElementForce::Blocks::run(const Task& task, std::span<const double> position, std::span<double> force,
+                               std::span<const double> reference) {
   BlockGroup& group = groups[task.group];
   for (auto block = static_cast<std::size_t>(task.first); block < static_cast<std::size_t>(task.last);
        ++block) {
+    std::uint8_t& awake = is_awake[group.first_block + block];
+    if (awake == 0) {
+      // A user's law may have stress before anything moves.
+      if (!reference.empty() && !group.user && !has_moved(group, block, position, reference)) continue;
+      awake = 1;
+    }
     critical_now[group.first_block + block] = group.kernel->add_force(
         group.input(block, position), steps[task.group], group.block_state(block), force.data());
   }
+}
+
+bool ElementForce::Blocks::has_moved(const BlockGroup& group, std::size_t block,
+                                     std::span<const double> position,
+                                     std::span<const double> reference) const {
+  const auto corners = static_cast<std::size_t>(group.corners());
+  const auto rows = static_cast<std::size_t>((group.count(block) + kLanes - 1) / kLanes);
+  const std::int32_t* offsets = group.offsets.data() + block * kBlock * corners;
+  for (std::size_t i = 0; i < rows * corners * kLanes; ++i) {
+    const double *x = &position[offsets[i]], *x0 = &reference[offsets[i]];
+    if (x[0] != x0[0] || x[1] != x0[1] || x[2] != x0[2]) return true;
+  }
+  return false;
 }
 
 /// A deleted element has neither stress nor hourglass stiffness, and does not bound the step.
@@ -58,6 +92,7 @@ void ElementForce::Blocks::remove(BlockGroup& group, std::size_t slot) {
 /// Through a set of bits, so that any number of elements comes out ascending in linear time.
 void ElementForce::Blocks::list_critical() {
   critical.clear();
+  std::fill(critical_set.begin(), critical_set.end(), 0);
   for (const BlockGroup& group : groups) {
     if (!group.plan.cracks) continue;
     for (std::size_t block = 0; block < group.blocks(); ++block) {
@@ -68,10 +103,10 @@ void ElementForce::Blocks::list_critical() {
     }
   }
   for (std::size_t word = 0; word < critical_set.size(); ++word) {
+    critical_before[word] = static_cast<Index>(critical.size());
     for (std::uint64_t bits = critical_set[word]; bits; bits &= bits - 1) {
       critical.push_back(static_cast<Index>(64 * word) + std::countr_zero(bits));
     }
-    critical_set[word] = 0;
   }
 }
 
@@ -130,7 +165,7 @@ double ElementForce::mean_state(Index element, int state) const {
 }
 
 void ElementForce::add_force(std::span<const double> position, std::span<double> force, double step,
-                             const Threads& threads) {
+                             const Threads& threads, std::span<const double> reference) {
   Blocks& b = *blocks_;
   for (std::size_t g = 0; g < b.groups.size(); ++g) {
     const PartPlan& plan = b.groups[g].plan;
@@ -139,14 +174,15 @@ void ElementForce::add_force(std::span<const double> position, std::span<double>
   }
   if (threads.count() == 1) {
     for (const std::vector<Blocks::Task>& tasks : b.colours) {
-      for (const Blocks::Task& task : tasks) b.run(task, position, force);
+      for (const Blocks::Task& task : tasks) b.run(task, position, force, reference);
     }
   } else {
 #pragma omp parallel num_threads(threads.count())
     for (const std::vector<Blocks::Task>& tasks : b.colours) {
       const auto count = static_cast<std::int64_t>(tasks.size());
 #pragma omp for schedule(dynamic)
-      for (std::int64_t i = 0; i < count; ++i) b.run(tasks[static_cast<std::size_t>(i)], position, force);
+      for (std::int64_t i = 0; i < count; ++i)
+        b.run(tasks[static_cast<std::size_t>(i)], position, force, reference);
     }
   }
   if (!b.critical_set.empty()) b.list_critical();
@@ -154,6 +190,38 @@ void ElementForce::add_force(std::span<const double> position, std::span<double>
 
 std::span<const Index> ElementForce::critical_elements() const {
   return blocks_->critical;
+}
+
+std::span<const Mat3> ElementForce::last_critical_stresses() const {
+  return blocks_->critical_stress;
+}
+
+std::span<const Mat3> ElementForce::critical_stresses(std::span<const double> position,
+                                                      const Threads& threads) {
+  Blocks& b = *blocks_;
+  b.critical_stress.resize(b.critical.size());
+  if (b.critical.empty()) return {};
+  for (const BlockGroup& group : b.groups) {
+    if (!group.plan.cracks) continue;
+    threads.for_ranges(
+        static_cast<std::int64_t>(group.blocks()), 8, [&](std::int64_t begin, std::int64_t end) {
+          std::array<Lanes, 6 * kRows> stress;
+          for (auto block = static_cast<std::size_t>(begin); block < static_cast<std::size_t>(end); ++block) {
+            const std::uint64_t elements = b.critical_now[group.first_block + block];
+            if (elements == 0) continue;
+            group.kernel->stress(group.input(block, position), elements, stress.data());
+            for (std::uint64_t bits = elements; bits; bits &= bits - 1) {
+              const auto slot = static_cast<std::size_t>(std::countr_zero(bits));
+              const auto s = [&](std::size_t k) {
+                return stress[6 * (slot / kLanes) + k].value[slot % kLanes];
+              };
+              b.critical_stress[b.place_of_critical(group.elements[block * kBlock + slot])] = {
+                  {Vec3{s(0), s(3), s(5)}, Vec3{s(3), s(1), s(4)}, Vec3{s(5), s(4), s(2)}}};
+            }
+          }
+        });
+  }
+  return b.critical_stress;
 }
 
 void ElementForce::set_least_strength(Index part, double strength) {

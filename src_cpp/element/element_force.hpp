@@ -53,14 +53,21 @@ class ElementForce {
   double mean_state(Index element, int state) const;
 
   /// Adds minus the internal force to `force` and advances the material state by `step`.
-  /// The same bits for any number of threads.
+  /// The same bits for any number of threads. `reference`: undeformed positions of the same nodes, or none;
+  /// with them blocks of elements are left out until one of their nodes has moved, such as before the first
+  /// wave.
   void add_force(std::span<const double> position, std::span<double> force, double step,
-                 const Threads& threads);
+                 const Threads& threads, std::span<const double> reference = {});
 
   /// Ascending numbers of the cracking elements whose stress, at the last `add_force`, could reach the
   /// strength on some plane (Frobenius norm of the stress against strength * min(1, shear ratio)). A facet
   /// whose traction is the mean of two elements' can only open if one of them is listed.
   std::span<const Index> critical_elements() const;
+
+  /// Mean Cauchy stress of each of them at `position`, Pa, with the material state as it is.
+  std::span<const Mat3> critical_stresses(std::span<const double> position, const Threads& threads);
+  /// The same as the last call found them.
+  std::span<const Mat3> last_critical_stresses() const;
 
   /// Lists elements of a cracking part from this strength on (Pa) instead of its law's, where facets are
   /// weaker or stronger than that.
