@@ -70,7 +70,8 @@ INSTANTIATE_TEST_SUITE_P(Elements, ThickBar,
                          testing::Values(ElementType::hexahedron, ElementType::tetrahedron));
 
 TEST_P(ThickBar, DissipatesTheLawsEnergyInMixedMode) {
-  // Pulled and wrung at once, at the step that the elements allow: the facets open and slide.
+  // Pulled and wrung at once: the facets open and slide. Bricks at the paper's step; at theirs, three times
+  // as long, node pairs that part in one step are solved for with softer springs, which costs per cents.
   Model model;
   const double h = 1e-3;
   scenes::add_box(model.mesh, "bar", {16, 4, 4}, {16 * h, 4 * h, 4 * h});
@@ -80,7 +81,7 @@ TEST_P(ThickBar, DissipatesTheLawsEnergyInMixedMode) {
   model.cohesive_laws = {glass_law()};
   // Along x apart, and the faster the farther from the middle; about x against one another.
   model.initial_velocities = {{"bar", {-16, 2 * h * 400, 0}, {2000, 0, 0, 0, 0, -400, 0, 400, 0}}};
-  model.time = {6e-6, 0, 0.9};
+  model.time = {6e-6, GetParam() == ElementType::tetrahedron ? 0 : 6e-8, 0.9};
   Simulation s(std::move(model));
   s.advance(100000);
   const Summary summary = s.summary();
