@@ -24,6 +24,27 @@ function(cdfp_room name)
   set_property(GLOBAL APPEND PROPERTY CDFP_ROOMS cdfp_${name})
 endfunction()
 
+# Hot loops are compiled once for each instruction set and chosen at start: NAME_baseline.cpp, NAME_avx2.cpp and
+# NAME_avx512.cpp; cdfp_variants(OUT NAME) lists those that this processor's family may have. Sanitizers look at
+# the baseline build alone: it is the same source, and they compile it slowly.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND NOT CDFP_SANITIZE)
+  target_compile_definitions(cdfp_options INTERFACE CDFP_HAS_X86_VARIANTS)
+  set(CDFP_HAS_X86_VARIANTS ON)
+endif()
+function(cdfp_variants out name)
+  set(sources ${name}_baseline.cpp)
+  if(CDFP_HAS_X86_VARIANTS)
+    list(APPEND sources ${name}_avx2.cpp ${name}_avx512.cpp)
+    set_property(SOURCE ${name}_avx2.cpp APPEND PROPERTY COMPILE_OPTIONS -march=x86-64-v3)
+    set_property(SOURCE ${name}_avx512.cpp APPEND PROPERTY COMPILE_OPTIONS -march=x86-64-v4)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      # GCC 12's own header starts "undefined" vectors with themselves.
+      set_property(SOURCE ${name}_avx512.cpp APPEND PROPERTY COMPILE_OPTIONS -Wno-uninitialized -Wno-maybe-uninitialized)
+    endif()
+  endif()
+  set(${out} ${sources} PARENT_SCOPE)
+endfunction()
+
 # cdfp_test(NAME SOURCES a.cpp ... [ROOMS core mesh ...] [LIBRARIES lib ...] [TIMEOUT s]): a GoogleTest
 # executable test_NAME over the named rooms (the whole library if none is named)
 function(cdfp_test name)

@@ -6,11 +6,16 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "cdfp/cdfp.h"
+#include "cdfp/cohesive.hpp"
+#include "cdfp/contact.hpp"
 #include "cdfp/error.hpp"
 #include "cdfp/mesh.hpp"
 #include "cdfp/model.hpp"
@@ -35,7 +40,12 @@ struct Held<cdfp_model> {
 };
 template <>
 struct Held<cdfp_simulation> {
-  using Object = Simulation;
+  struct Object : Simulation {
+    using Simulation::Simulation;
+    cdfp_step_callback monitor = nullptr;
+    void* user_data = nullptr;
+    std::shared_ptr<bool> stepping = std::make_shared<bool>(false);  ///< while the monitor may be called
+  };
   static constexpr const char* kName = "simulation";
 };
 template <>
@@ -50,6 +60,44 @@ struct Held<cdfp_topology> {
     Insertion last;
   };
   static constexpr const char* kName = "topology";
+};
+
+template <>
+struct Held<cdfp_cohesive> {
+  struct Object {
+    CohesiveElements elements;
+    std::vector<CohesiveLaw> laws;
+    std::optional<CohesiveCriterion> criterion;
+    std::vector<CohesiveCriterion::Opening> open;
+    std::vector<Index> facets;  ///< of `open`, as they cross the door
+    std::vector<double> tractions;
+  };
+  static constexpr const char* kName = "cohesive service";
+};
+
+/// Compressed rows, as they cross the door.
+struct Rows {
+  std::vector<Index> start, partners;
+};
+template <>
+struct Held<cdfp_contact_search> {
+  struct Object {
+    ContactSearch search;
+    Index nodes = 0, segments = 0, edges = 0;  ///< of the last search
+    Rows node_segments, edge_edges;
+  };
+  static constexpr const char* kName = "contact search";
+};
+template <>
+struct Held<cdfp_contact> {
+  struct Object {
+    SurfaceContact contact;
+    std::vector<std::string> part_names;
+    Rows node_segments, edge_edges;
+    std::vector<cdfp_touch> touches;
+    std::vector<cdfp_body_pair> pairs;
+  };
+  static constexpr const char* kName = "contact";
 };
 
 // ---- the table of live handles ----
@@ -151,5 +199,33 @@ void need_array(const void* array, std::int64_t count, const char* name);
 /// `number` in [0, count).
 void need_number(std::int64_t number, std::int64_t count, const char* what);
 void copy_text(std::string_view from, char* text, std::int64_t capacity, std::int64_t* length);
+
+template <class Value>
+void set(Value* out, Value value, const char* name) {
+  need(out, name);
+  *out = value;
+}
+/// The caller's vectors at `nodes` nodes.
+template <class Value>
+std::span<Value> vectors(Value* data, std::int64_t nodes, const char* name) {
+  const std::size_t n = size_of(nodes, "nodes");
+  need_array(data, nodes, name);
+  return {data, 3 * n};
+}
+/// Refuses types that are not bulk types and a connectivity of another length. `types` may be null.
+std::vector<ElementType> element_types_of(std::size_t elements, const std::int32_t* types,
+                                          std::size_t corners);
+/// The rows that `cdfp_topology_insert_cohesive` gives.
+struct Changes {
+  Changes(std::int64_t new_node_count, const std::int32_t* new_nodes, std::int64_t renumbered_count,
+          const std::int32_t* renumbered);
+  std::vector<Insertion::NewNode> new_nodes;
+  std::vector<Insertion::Renumbered> renumbered;
+};
+/// All but the surfaces.
+void take_settings(const cdfp_contact_settings* given, ContactSettings& settings);
+cdfp_contact_settings shown(const ContactSettings& settings);
+CohesiveLaw law_of(const char* name, const cdfp_cohesive_law* law);
+void set_callback(CohesiveLaw& law, cdfp_cohesive_callback callback, std::int32_t states, void* user_data);
 
 }  // namespace cdfp::gate

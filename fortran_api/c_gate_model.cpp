@@ -27,6 +27,18 @@ std::string name_of(const char* string, const char* argument) {
   return name;
 }
 
+void set_mesh(Model& model, int64_t nodes, const double* coordinates, std::size_t elements,
+              const int32_t* types, std::span<const Index> connectivity, const int32_t* parts,
+              const int32_t* layers) {
+  const std::span<const double> x = vectors(coordinates, nodes, "coordinates");
+  need_array(parts, static_cast<int64_t>(elements), "parts");
+  model.mesh.types = element_types_of(elements, types, connectivity.size());
+  model.mesh.coordinates.assign(x.begin(), x.end());
+  model.mesh.connectivity.assign(connectivity.begin(), connectivity.end());
+  model.mesh.parts.assign(parts, parts + elements);
+  model.mesh.layers.assign(layers, layers ? layers + elements : nullptr);
+}
+
 std::array<double, 3> vector_or_zero(const double* v) {
   return v ? std::array<double, 3>{v[0], v[1], v[2]} : std::array<double, 3>{};
 }
@@ -36,6 +48,45 @@ std::array<bool, 3> flags_or_none(const int32_t* f) {
 }
 
 }  // namespace
+
+cdfp::CohesiveLaw cdfp::gate::law_of(const char* name, const cdfp_cohesive_law* law) {
+  need(law, "law");
+  need_number(law->kind, 4, "kind");
+  return {.name = name,
+          .strength = law->strength,
+          .fracture_energy = law->fracture_energy,
+          .mode_ratio = law->mode_ratio,
+          .shear_ratio = law->shear_ratio,
+          .friction = law->friction,
+          .friction_exponent = law->friction_exponent,
+          .internal_friction = law->internal_friction,
+          .kind = static_cast<CohesiveKind>(law->kind),
+          .stiffness = law->stiffness,
+          .weibull_modulus = law->weibull_modulus,
+          .weibull_area = law->weibull_area,
+          .seed = law->seed,
+          .rate_sensitivity = law->rate_sensitivity,
+          .reference_rate = law->reference_rate};
+}
+
+void cdfp::gate::set_callback(CohesiveLaw& law, cdfp_cohesive_callback callback, std::int32_t states,
+                              void* user_data) {
+  if (!callback) refuse("argument 'callback' is null; give the function that computes the traction");
+  law.states = states;
+  law.callback = [callback, user_data](const CohesivePoints& p) {
+    const cdfp_cohesive_points points = {.count = p.count,
+                                         .time = p.time,
+                                         .step = p.step,
+                                         .opening = p.opening,
+                                         .normal = p.normal,
+                                         .insertion_traction = p.insertion_traction,
+                                         .state = p.state,
+                                         .traction = p.traction,
+                                         .stored = p.stored,
+                                         .damage = p.damage};
+    callback(&points, user_data);
+  };
+}
 
 int32_t cdfp_model_create(cdfp_model** model) {
   return guarded(__func__, [&] {
@@ -56,16 +107,22 @@ int32_t cdfp_model_set_mesh(cdfp_model* model, int64_t nodes, const double* coor
                             const int32_t* hexahedra, const int32_t* parts, const int32_t* layers) {
   return guarded(__func__, [&] {
     const Change m(model);
-    const std::size_t n = size_of(nodes, "nodes");
-    const std::size_t e = size_of(elements, "elements");
-    need_array(coordinates, nodes, "coordinates");
     need_array(hexahedra, elements, "hexahedra");
-    need_array(parts, elements, "parts");
-    m->mesh.coordinates.assign(coordinates, coordinates + 3 * n);
-    m->mesh.types.assign(e, ElementType::hexahedron);
-    m->mesh.connectivity.assign(hexahedra, hexahedra + 8 * e);
-    m->mesh.parts.assign(parts, parts + e);
-    m->mesh.layers.assign(layers, layers ? layers + e : nullptr);
+    const std::size_t e = size_of(elements, "elements");
+    set_mesh(*m, nodes, coordinates, e, nullptr, {hexahedra, 8 * e}, parts, layers);
+  });
+}
+
+int32_t cdfp_model_set_mixed_mesh(cdfp_model* model, int64_t nodes, const double* coordinates,
+                                  int64_t elements, const int32_t* types, int64_t corners,
+                                  const int32_t* connectivity, const int32_t* parts, const int32_t* layers) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    const std::size_t e = size_of(elements, "elements");
+    const std::size_t c = size_of(corners, "corners");
+    need_array(types, elements, "types");
+    need_array(connectivity, corners, "connectivity");
+    set_mesh(*m, nodes, coordinates, e, types, {connectivity, c}, parts, layers);
   });
 }
 
@@ -138,6 +195,8 @@ int32_t cdfp_cohesive_law_default(cdfp_cohesive_law* law) {
             .stiffness = d.stiffness,
             .weibull_modulus = d.weibull_modulus,
             .weibull_area = d.weibull_area,
+            .rate_sensitivity = d.rate_sensitivity,
+            .reference_rate = d.reference_rate,
             .seed = d.seed,
             .kind = static_cast<int32_t>(d.kind)};
   });
@@ -146,21 +205,7 @@ int32_t cdfp_cohesive_law_default(cdfp_cohesive_law* law) {
 int32_t cdfp_model_add_cohesive_law(cdfp_model* model, const char* name, const cdfp_cohesive_law* law) {
   return guarded(__func__, [&] {
     const Change m(model);
-    need(law, "law");
-    need_number(law->kind, 4, "kind");
-    m->cohesive_laws.push_back({.name = name_of(name, "name"),
-                                .strength = law->strength,
-                                .fracture_energy = law->fracture_energy,
-                                .mode_ratio = law->mode_ratio,
-                                .shear_ratio = law->shear_ratio,
-                                .friction = law->friction,
-                                .friction_exponent = law->friction_exponent,
-                                .internal_friction = law->internal_friction,
-                                .kind = static_cast<CohesiveKind>(law->kind),
-                                .stiffness = law->stiffness,
-                                .weibull_modulus = law->weibull_modulus,
-                                .weibull_area = law->weibull_area,
-                                .seed = law->seed});
+    m->cohesive_laws.push_back(law_of(name_of(name, "name").c_str(), law));
   });
 }
 
@@ -169,24 +214,10 @@ int32_t cdfp_model_set_cohesive_callback(cdfp_model* model, const char* cohesive
   return guarded(__func__, [&] {
     const Change m(model);
     const std::string name = name_of(cohesive_law, "cohesive_law");
-    if (!callback) refuse("argument 'callback' is null; give the function that computes the traction");
     const auto law = std::find_if(m->cohesive_laws.begin(), m->cohesive_laws.end(),
                                   [&](const CohesiveLaw& l) { return l.name == name; });
     if (law == m->cohesive_laws.end()) refuse("there is no cohesive law '" + name + "'; add it first");
-    law->states = states;
-    law->callback = [callback, user_data](const CohesivePoints& p) {
-      const cdfp_cohesive_points points = {.count = p.count,
-                                           .time = p.time,
-                                           .step = p.step,
-                                           .opening = p.opening,
-                                           .normal = p.normal,
-                                           .insertion_traction = p.insertion_traction,
-                                           .state = p.state,
-                                           .traction = p.traction,
-                                           .stored = p.stored,
-                                           .damage = p.damage};
-      callback(&points, user_data);
-    };
+    set_callback(*law, callback, states, user_data);
   });
 }
 
@@ -304,6 +335,18 @@ int32_t cdfp_model_set_gravity(cdfp_model* model, const double* gravity) {
   });
 }
 
+int32_t cdfp_model_set_load_callback(cdfp_model* model, cdfp_load_callback callback, void* user_data) {
+  return guarded(__func__, [&] {
+    const Change m(model);
+    if (!callback) refuse("argument 'callback' is null; give the function that adds the forces");
+    m->load = [callback, user_data](const NodalLoad& l) {
+      const cdfp_nodal_load load = {
+          .nodes = l.nodes, .time = l.time, .position = l.position, .velocity = l.velocity, .force = l.force};
+      callback(&load, user_data);
+    };
+  });
+}
+
 int32_t cdfp_model_add_contact_surface(cdfp_model* model, const char* facet_set) {
   return guarded(__func__,
                  [&] { Change(model)->contact.surfaces.push_back(name_of(facet_set, "facet_set")); });
@@ -312,31 +355,12 @@ int32_t cdfp_model_add_contact_surface(cdfp_model* model, const char* facet_set)
 int32_t cdfp_model_get_contact(const cdfp_model* model, cdfp_contact_settings* settings) {
   return guarded(__func__, [&] {
     const Look m(model);
-    need(settings, "settings");
-    const ContactSettings& c = m->contact;
-    *settings = {.cell_factor = c.cell_factor,
-                 .buffer_factor = c.buffer_factor,
-                 .penalty_factor = c.penalty_factor,
-                 .friction = c.friction,
-                 .depth_limit = c.depth_limit,
-                 .edge_edge = c.edge_edge,
-                 .adaptive = c.adaptive};
+    set(settings, shown(m->contact), "settings");
   });
 }
 
 int32_t cdfp_model_set_contact(cdfp_model* model, const cdfp_contact_settings* settings) {
-  return guarded(__func__, [&] {
-    const Change m(model);
-    need(settings, "settings");
-    ContactSettings& c = m->contact;
-    c.cell_factor = settings->cell_factor;
-    c.buffer_factor = settings->buffer_factor;
-    c.penalty_factor = settings->penalty_factor;
-    c.friction = settings->friction;
-    c.depth_limit = settings->depth_limit;
-    c.edge_edge = settings->edge_edge != 0;
-    c.adaptive = settings->adaptive != 0;
-  });
+  return guarded(__func__, [&] { take_settings(settings, Change(model)->contact); });
 }
 
 int32_t cdfp_model_set_end_time(cdfp_model* model, double end) {

@@ -10,12 +10,6 @@ using namespace cdfp::gate;
 
 namespace {
 
-template <class Value>
-void set(Value* out, Value value, const char* name) {
-  need(out, name);
-  *out = value;
-}
-
 void show(std::span<const double> values, std::size_t per_node, const double** data, int64_t* nodes,
           const char* name) {
   need(data, name);
@@ -39,7 +33,7 @@ int32_t cdfp_simulation_create(const cdfp_model* model, cdfp_simulation** simula
   return guarded(__func__, [&] {
     const Look m(model);
     need(simulation, "simulation");
-    give(std::make_shared<Simulation>(*m), simulation);
+    give(std::make_shared<Held<cdfp_simulation>::Object>(*m), simulation);
   });
 }
 
@@ -47,26 +41,78 @@ int32_t cdfp_simulation_free(cdfp_simulation** simulation) {
   return free_handle(__func__, simulation);
 }
 
+namespace {
+
+/// Steps until `done`. The monitor is called between the uses of the object, so that it may look and change.
+template <class Done>
+int64_t run(cdfp_simulation* simulation, const Done& done) {
+  int64_t steps = 0;
+  std::shared_ptr<bool> stepping;
+  {
+    const Change s(simulation);
+    if (*s->stepping) {
+      throw Error(Status::bad_state,
+                  "the simulation is being stepped; its monitor may look at it and change its state, and "
+                  "stops it by its result");
+    }
+    if (!s->monitor) {
+      for (; !done(*s, steps); ++steps) s->step();
+      return steps;
+    }
+    stepping = s->stepping;
+    *stepping = true;
+  }
+  struct Ended {
+    bool& stepping;
+    ~Ended() { stepping = false; }
+  } const ended{*stepping};
+  while (true) {
+    cdfp_step_callback monitor = nullptr;
+    void* user_data = nullptr;
+    {
+      const Change s(simulation);
+      if (done(*s, steps)) return steps;
+      s->step();
+      monitor = s->monitor;
+      user_data = s->user_data;
+    }
+    ++steps;
+    if (monitor && monitor(simulation, user_data) != 0) return steps;
+  }
+}
+
+}  // namespace
+
 int32_t cdfp_simulation_step(cdfp_simulation* simulation) {
-  return guarded(__func__, [&] { Change(simulation)->step(); });
+  return guarded(__func__,
+                 [&] { run(simulation, [](const Simulation&, int64_t done) { return done == 1; }); });
 }
 
 int32_t cdfp_simulation_advance(cdfp_simulation* simulation, int64_t steps, int64_t* done) {
   return guarded(__func__, [&] {
-    const Change s(simulation);
     if (steps < 0) refuse("argument 'steps' is negative (" + std::to_string(steps) + ")");
-    const int64_t count = s->advance(steps);
+    const int64_t count =
+        run(simulation, [steps](const Simulation& s, int64_t now) { return now >= steps || s.finished(); });
     if (done) *done = count;
   });
 }
 
 int32_t cdfp_simulation_advance_to(cdfp_simulation* simulation, double time, int64_t* done) {
   return guarded(__func__, [&] {
-    const Change s(simulation);
     if (!(time >= 0)) refuse("argument 'time' is " + std::to_string(time) + "; it must not be negative");
-    const int64_t before = s->step_count();
-    while (!s->finished() && s->time() + 0.5 * s->step_size() < time) s->step();
-    if (done) *done = s->step_count() - before;
+    const int64_t count = run(simulation, [time](const Simulation& s, int64_t) {
+      return s.finished() || s.time() + 0.5 * s.step_size() >= time;
+    });
+    if (done) *done = count;
+  });
+}
+
+int32_t cdfp_simulation_set_monitor(cdfp_simulation* simulation, cdfp_step_callback callback,
+                                    void* user_data) {
+  return guarded(__func__, [&] {
+    const Change s(simulation);
+    s->monitor = callback;
+    s->user_data = user_data;
   });
 }
 
@@ -114,6 +160,16 @@ int32_t cdfp_simulation_forces(const cdfp_simulation* simulation, const double**
 
 int32_t cdfp_simulation_masses(const cdfp_simulation* simulation, const double** masses, int64_t* nodes) {
   return guarded(__func__, [&] { show(Look(simulation)->masses(), 1, masses, nodes, "masses"); });
+}
+
+int32_t cdfp_simulation_set_positions(cdfp_simulation* simulation, int64_t nodes, const double* positions) {
+  return guarded(__func__,
+                 [&] { Change(simulation)->set_positions(vectors(positions, nodes, "positions")); });
+}
+
+int32_t cdfp_simulation_set_velocities(cdfp_simulation* simulation, int64_t nodes, const double* velocities) {
+  return guarded(__func__,
+                 [&] { Change(simulation)->set_velocities(vectors(velocities, nodes, "velocities")); });
 }
 
 int32_t cdfp_simulation_body_count(const cdfp_simulation* simulation, int64_t* bodies) {

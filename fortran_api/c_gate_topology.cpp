@@ -46,6 +46,45 @@ void put_pairs(const std::vector<Use>& found, Index Use::*part, int64_t capacity
 
 }  // namespace
 
+cdfp::gate::Changes::Changes(std::int64_t new_node_count, const std::int32_t* new_node_rows,
+                             std::int64_t renumbered_count, const std::int32_t* renumbered_rows)
+    : new_nodes(size_of(new_node_count, "new_node_count")),
+      renumbered(size_of(renumbered_count, "renumbered_count")) {
+  need_array(new_node_rows, new_node_count, "new_nodes");
+  need_array(renumbered_rows, renumbered_count, "renumbered");
+  for (std::size_t i = 0; i < new_nodes.size(); ++i) {
+    const std::int32_t* row = new_node_rows + 2 * i;
+    new_nodes[i] = {row[0], row[1]};
+  }
+  for (std::size_t i = 0; i < renumbered.size(); ++i) {
+    const std::int32_t* row = renumbered_rows + 4 * i;
+    renumbered[i] = {row[0], row[1], row[2], row[3]};
+  }
+}
+
+std::vector<cdfp::ElementType> cdfp::gate::element_types_of(std::size_t elements, const std::int32_t* types,
+                                                            std::size_t corners) {
+  std::vector<ElementType> found(elements, ElementType::hexahedron);
+  std::size_t wanted = 8 * elements;
+  if (types) {
+    static constexpr std::size_t corners_of[] = {8, 4, 6, 5};
+    wanted = 0;
+    for (std::size_t i = 0; i < elements; ++i) {
+      if (types[i] < CDFP_HEXAHEDRON || types[i] > CDFP_PYRAMID) {
+        refuse("element " + std::to_string(i) + " has type " + std::to_string(types[i]) +
+               "; take CDFP_HEXAHEDRON, CDFP_TETRAHEDRON, CDFP_WEDGE or CDFP_PYRAMID");
+      }
+      found[i] = static_cast<ElementType>(types[i]);
+      wanted += corners_of[types[i]];
+    }
+  }
+  if (corners != wanted) {
+    refuse("'connectivity' holds " + std::to_string(corners) + " corners, but the " +
+           std::to_string(elements) + " elements have " + std::to_string(wanted));
+  }
+  return found;
+}
+
 int32_t cdfp_topology_create(int64_t nodes, int64_t elements, const int32_t* types, int64_t corners,
                              const int32_t* connectivity, cdfp_topology** topology) {
   return guarded(__func__, [&] {
@@ -54,24 +93,7 @@ int32_t cdfp_topology_create(int64_t nodes, int64_t elements, const int32_t* typ
     const std::size_t e = size_of(elements, "elements");
     const std::size_t c = size_of(corners, "corners");
     need_array(connectivity, corners, "connectivity");
-    std::vector<ElementType> element_types(e, ElementType::hexahedron);
-    std::size_t wanted = 8 * e;
-    if (types) {
-      static constexpr std::size_t corners_of[] = {8, 4, 6, 5};
-      wanted = 0;
-      for (std::size_t i = 0; i < e; ++i) {
-        if (types[i] < CDFP_HEXAHEDRON || types[i] > CDFP_PYRAMID) {
-          refuse("element " + std::to_string(i) + " has type " + std::to_string(types[i]) +
-                 "; take CDFP_HEXAHEDRON, CDFP_TETRAHEDRON, CDFP_WEDGE or CDFP_PYRAMID");
-        }
-        element_types[i] = static_cast<ElementType>(types[i]);
-        wanted += corners_of[types[i]];
-      }
-    }
-    if (c != wanted) {
-      refuse("'connectivity' holds " + std::to_string(c) + " corners, but the " + std::to_string(e) +
-             " elements have " + std::to_string(wanted));
-    }
+    const std::vector<ElementType> element_types = element_types_of(e, types, c);
     give(std::make_shared<Held<cdfp_topology>::Object>(Held<cdfp_topology>::Object{
              Topology(static_cast<Index>(n), element_types, {connectivity, c}), {}}),
          topology);

@@ -4,7 +4,7 @@ module cdfp_handles
   use cdfp_c
   implicit none
   private
-  public :: counted_handle, report, refuse, c_text, fortran_text, copy_numbers, copy_rows
+  public :: counted_handle, report, refuse, c_text, fortran_text, copy_numbers, copy_rows, threads_or_one
 
   !> One owner of an object, which goes with its last owner: by `free`, when the owner's variable ceases to
   !> exist, or when it is made to own another. `share` makes one more owner.
@@ -126,6 +126,14 @@ contains
     do i = 1, len(text)
       text(i:i) = buffer(i)
     end do
+  end function
+
+  pure function threads_or_one(threads) result(count)
+    integer, intent(in), optional :: threads
+    integer(c_int32_t) :: count
+
+    count = 1
+    if (present(threads)) count = int(threads, c_int32_t)
   end function
 
   !> A C array of numbers that count from 0 as numbers that count from 1.

@@ -6,7 +6,7 @@ module cdfp_models
   use cdfp_handles
   implicit none
   private
-  public :: cdfp_model, assignment(=)
+  public :: cdfp_model, new_cohesive_law, assignment(=)
 
   !> Names tie the entries together, in any order; `cdfp_simulation` checks them. All arguments are copied.
   !> Numbers of nodes, elements, facets, parts, layers and axes count from 1. Units are SI.
@@ -17,6 +17,7 @@ module cdfp_models
     procedure :: free
     procedure :: set_title
     procedure :: set_mesh
+    procedure :: set_mixed_mesh
     procedure :: add_node_set
     procedure :: add_facet_set
     procedure :: add_elastic_material
@@ -38,6 +39,7 @@ module cdfp_models
     procedure :: add_prescribed_velocity
     procedure :: add_initial_velocity
     procedure :: set_gravity
+    procedure :: set_load_callback
     procedure :: add_contact_surface
     procedure :: set_contact
     procedure :: set_time
@@ -114,6 +116,37 @@ contains
     call report(cdfp_model_set_mesh(this%handle%address, size(coordinates, 2, c_int64_t), coordinates, &
                                     size(hexahedra, 2, c_int64_t), hexahedra - 1_c_int32_t, &
                                     parts - 1_c_int32_t, layers_from_0), stat, errmsg)
+  end subroutine
+
+  !> The same for any bulk elements: `types`: CDFP_TETRAHEDRON and the like; `connectivity`: the corners of all
+  !> elements one after the other.
+  subroutine set_mixed_mesh(this, coordinates, types, connectivity, parts, layers, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    real(c_double), contiguous, intent(in) :: coordinates(:, :)
+    integer(c_int32_t), contiguous, intent(in) :: types(:), connectivity(:), parts(:)
+    integer(c_int32_t), contiguous, intent(in), optional :: layers(:)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer(c_int32_t), allocatable :: layers_from_0(:)
+
+    if (size(coordinates, 1) /= 3) then
+      call refuse('set_mixed_mesh: coordinates must be of shape (3, nodes)', stat, errmsg)
+      return
+    else if (size(parts) /= size(types)) then
+      call refuse('set_mixed_mesh: parts must name one part for each element', stat, errmsg)
+      return
+    end if
+    if (present(layers)) then
+      if (size(layers) /= size(types)) then
+        call refuse('set_mixed_mesh: layers must name one layer for each element', stat, errmsg)
+        return
+      end if
+      layers_from_0 = layers - 1_c_int32_t
+    end if
+    call report(cdfp_model_set_mixed_mesh(this%handle%address, size(coordinates, 2, c_int64_t), coordinates, &
+                                          size(types, kind=c_int64_t), types, &
+                                          size(connectivity, kind=c_int64_t), connectivity - 1_c_int32_t, &
+                                          parts - 1_c_int32_t, layers_from_0), stat, errmsg)
   end subroutine
 
   subroutine add_node_set(this, name, nodes, stat, errmsg)
@@ -295,19 +328,39 @@ contains
   !> coefficient between closed faces (0), exponent of its growth with damage (1), share of a pressure that
   !> holds the shear on a facet back (0). `kind`: CDFP_LINEAR (if absent), CDFP_CAMACHO_ORTIZ, CDFP_BILINEAR
   !> (with `stiffness`, Pa/m) or CDFP_USER. With `weibull_modulus` the strength scatters over the facets by
-  !> `seed`; `weibull_area` (m2) is what `strength` belongs to.
+  !> `seed`; `weibull_area` (m2) is what `strength` belongs to. With `rate_sensitivity` c the traction is
+  !> multiplied by 1 + c ln(1 + opening rate / `reference_rate` (m/s)).
   subroutine add_cohesive_law(this, name, strength, fracture_energy, mode_ratio, shear_ratio, friction, &
                               friction_exponent, internal_friction, kind, stiffness, weibull_modulus, &
-                              weibull_area, seed, stat, errmsg)
+                              weibull_area, seed, rate_sensitivity, reference_rate, stat, errmsg)
     class(cdfp_model), intent(in) :: this
     character(len=*), intent(in) :: name
     real(c_double), intent(in) :: strength, fracture_energy
     real(c_double), intent(in), optional :: mode_ratio, shear_ratio, friction, friction_exponent
     real(c_double), intent(in), optional :: internal_friction, stiffness, weibull_modulus, weibull_area
+    real(c_double), intent(in), optional :: rate_sensitivity, reference_rate
     integer(c_int32_t), intent(in), optional :: kind
     integer(c_int64_t), intent(in), optional :: seed
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_model_add_cohesive_law(this%handle%address, c_text(name), &
+                                            new_cohesive_law(strength, fracture_energy, mode_ratio, shear_ratio, &
+                                                             friction, friction_exponent, internal_friction, &
+                                                             kind, stiffness, weibull_modulus, weibull_area, &
+                                                             seed, rate_sensitivity, reference_rate)), stat, errmsg)
+  end subroutine
+
+  !> The same as a law for the services: `cdfp_cohesive` and the laws at points.
+  function new_cohesive_law(strength, fracture_energy, mode_ratio, shear_ratio, friction, friction_exponent, &
+                            internal_friction, kind, stiffness, weibull_modulus, weibull_area, seed, &
+                            rate_sensitivity, reference_rate) result(law)
+    real(c_double), intent(in) :: strength, fracture_energy
+    real(c_double), intent(in), optional :: mode_ratio, shear_ratio, friction, friction_exponent
+    real(c_double), intent(in), optional :: internal_friction, stiffness, weibull_modulus, weibull_area
+    real(c_double), intent(in), optional :: rate_sensitivity, reference_rate
+    integer(c_int32_t), intent(in), optional :: kind
+    integer(c_int64_t), intent(in), optional :: seed
     type(cdfp_cohesive_law) :: law
     integer(c_int32_t) :: status
 
@@ -324,9 +377,9 @@ contains
     law%weibull_modulus = value_or(law%weibull_modulus, weibull_modulus)
     law%weibull_area = value_or(law%weibull_area, weibull_area)
     if (present(seed)) law%seed = seed
-    status = cdfp_model_add_cohesive_law(this%handle%address, c_text(name), law)
-    call report(status, stat, errmsg)
-  end subroutine
+    law%rate_sensitivity = value_or(law%rate_sensitivity, rate_sensitivity)
+    law%reference_rate = value_or(law%reference_rate, reference_rate)
+  end function
 
   !> The traction of a CDFP_USER law: `callback` is `c_funloc` of a `bind(c)` subroutine with the arguments
   !> `type(cdfp_cohesive_points), intent(in) :: points` and `type(c_ptr), value :: user_data`. It keeps `states`
@@ -494,6 +547,22 @@ contains
     call report(cdfp_model_set_gravity(this%handle%address, gravity), stat, errmsg)
   end subroutine
 
+  !> Forces of the program's own: `callback` is `c_funloc` of a `bind(c)` subroutine with the arguments
+  !> `type(cdfp_nodal_load), intent(in) :: load` and `type(c_ptr), value :: user_data`. It is called once a step
+  !> and fills `load%force`, which is 0 at first. Its work is external work.
+  subroutine set_load_callback(this, callback, user_data, stat, errmsg)
+    class(cdfp_model), intent(in) :: this
+    type(c_funptr), intent(in) :: callback
+    type(c_ptr), intent(in), optional :: user_data
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: user
+
+    user = c_null_ptr
+    if (present(user_data)) user = user_data
+    call report(cdfp_model_set_load_callback(this%handle%address, callback, user), stat, errmsg)
+  end subroutine
+
   !> A facet set that may touch others and itself; without any the scene has no contact.
   subroutine add_contact_surface(this, facet_set, stat, errmsg)
     class(cdfp_model), intent(in) :: this
@@ -506,9 +575,10 @@ contains
 
   !> What is absent stays as it is: see `cdfp_contact_settings` in cdfp/cdfp.h.
   subroutine set_contact(this, cell_factor, buffer_factor, penalty_factor, friction, depth_limit, edge_edge, &
-                         adaptive, stat, errmsg)
+                         adaptive, penetration_warning, stat, errmsg)
     class(cdfp_model), intent(in) :: this
     real(c_double), intent(in), optional :: cell_factor, buffer_factor, penalty_factor, friction, depth_limit
+    real(c_double), intent(in), optional :: penetration_warning
     logical, intent(in), optional :: edge_edge, adaptive
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
@@ -522,6 +592,7 @@ contains
       settings%penalty_factor = value_or(settings%penalty_factor, penalty_factor)
       settings%friction = value_or(settings%friction, friction)
       settings%depth_limit = value_or(settings%depth_limit, depth_limit)
+      settings%penetration_warning = value_or(settings%penetration_warning, penetration_warning)
       if (present(edge_edge)) settings%edge_edge = merge(1_c_int32_t, 0_c_int32_t, edge_edge)
       if (present(adaptive)) settings%adaptive = merge(1_c_int32_t, 0_c_int32_t, adaptive)
       status = cdfp_model_set_contact(this%handle%address, settings)

@@ -18,6 +18,9 @@ module cdfp_simulations
     procedure :: step
     procedure :: advance
     procedure :: advance_to
+    procedure :: set_monitor
+    procedure :: set_positions
+    procedure :: set_velocities
     procedure :: finished
     procedure :: time
     procedure :: step_size
@@ -125,6 +128,52 @@ contains
     count = 0
     call report(cdfp_simulation_advance_to(this%handle%address, time, count), stat, errmsg)
     if (present(done)) done = int(count)
+  end subroutine
+
+  !> `callback` is `c_funloc` of a `bind(c)` function with an `integer(c_int32_t)` result and the arguments
+  !> `type(c_ptr), value :: simulation` and `type(c_ptr), value :: user_data`. It is called after every step; a
+  !> result that is not 0 ends the call that steps. It may look at the simulation and change its state, by
+  !> `user_data` or a variable of its module, but not step it. `c_null_funptr`: none.
+  subroutine set_monitor(this, callback, user_data, stat, errmsg)
+    class(cdfp_simulation), intent(in) :: this
+    type(c_funptr), intent(in) :: callback
+    type(c_ptr), intent(in), optional :: user_data
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: user
+
+    user = c_null_ptr
+    if (present(user_data)) user = user_data
+    call report(cdfp_simulation_set_monitor(this%handle%address, callback, user), stat, errmsg)
+  end subroutine
+
+  !> (3, nodes), m. Nodes of rigid bodies and directions that are prescribed keep what they have; the energy
+  !> that the change brings is external work; contact is searched anew.
+  subroutine set_positions(this, x, stat, errmsg)
+    class(cdfp_simulation), intent(in) :: this
+    real(c_double), contiguous, intent(in) :: x(:, :)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    if (size(x, 1) /= 3) then
+      call refuse('set_positions: x must be of shape (3, nodes)', stat, errmsg)
+      return
+    end if
+    call report(cdfp_simulation_set_positions(this%handle%address, size(x, 2, c_int64_t), x), stat, errmsg)
+  end subroutine
+
+  !> (3, nodes), half a step ahead of the positions, m/s.
+  subroutine set_velocities(this, v, stat, errmsg)
+    class(cdfp_simulation), intent(in) :: this
+    real(c_double), contiguous, intent(in) :: v(:, :)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    if (size(v, 1) /= 3) then
+      call refuse('set_velocities: v must be of shape (3, nodes)', stat, errmsg)
+      return
+    end if
+    call report(cdfp_simulation_set_velocities(this%handle%address, size(v, 2, c_int64_t), v), stat, errmsg)
   end subroutine
 
   function finished(this, stat, errmsg) result(answer)

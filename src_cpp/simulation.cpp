@@ -7,7 +7,7 @@
 //   internal_force   | position, material state     | force, material state, critical elements
 //   criterion        | critical elements, stress    | facets that open
 //   insertion        | facets that open             | topology, nodes, element corners, cohesive elements
-//   gravity          | mass                         | force
+//   gravity, load    | mass, position, velocity     | force
 //   surface          | broken cohesive elements     | contact segments and edges
 //   global_search    | position, velocity           | candidate pairs (regular, if due)
 //   adaptive_search  | new contact entities         | candidate pairs
@@ -77,6 +77,8 @@ struct Simulation::Stages {
   std::vector<PartEnergy> part_energies() const { return elements.energies(nodes.position, threads); }
   Summary summary() const;
   Frame frame() const;
+  void set_state(std::vector<double>& field, std::span<const double> values, const char* name);
+  void set_positions(std::span<const double> values);
   bool finished() const { return time + 0.5 * step_size >= model.time.end * (1 + 1e-12); }
 
   Model model;
@@ -126,6 +128,8 @@ struct Simulation::Stages {
   void divide_masses_and_forces();
   void update_surface();
   void search();
+  void add_load();
+  double load_work() const;
   void accelerate_all();
   void choose_step();
   void warn_of_step();
@@ -149,6 +153,8 @@ struct Simulation::Stages {
   int adaptive_clock_ = 0;
   int regular_clock_ = 0;
   bool warned_of_step_ = false;
+  bool search_anew_ = false;
+  std::vector<double> load_;  ///< N, (n, 3): of the caller
 };
 
 Simulation::Stages::Stages(Model given)
@@ -239,6 +245,7 @@ void Simulation::Stages::list_stages() {
       for (const RigidMotion& body : bodies) external_work += body.gravity_work(gravity(), step_size);
     });
   }
+  if (model.load) add_stage(move_, "load_work", [this] { external_work += 0.5 * step_size * load_work(); });
   add_stage(move_, "drift", [this] {
     drift(step_size, nodes, threads);
     for (RigidMotion& body : bodies) body.drift(step_size, nodes);
@@ -256,12 +263,13 @@ void Simulation::Stages::list_stages() {
   if (criterion) {
     add_stage(forces_, "criterion", [this] {
       criterion->find(
-          elements.critical_elements(), topology, nodes.position,
-          [this](Index e) { return elements.stress(e, nodes.position); }, open_);
+          elements.critical_elements(), elements.critical_stresses(nodes.position, threads), topology,
+          nodes.position, [this](Index e) { return elements.stress(e, nodes.position); }, open_, threads);
     });
     add_stage(forces_, "insertion", [this] { insert_open_facets(); });
   }
   if (has_gravity()) add_stage(forces_, "gravity", [this] { add_gravity(gravity(), nodes, threads); });
+  if (model.load) add_stage(forces_, "load", [this] { add_load(); });
   if (contact) {
     if (cohesive) add_stage(forces_, "surface", [this] { update_surface(); });
     regular_clock_ = clock.add("global_search");
@@ -360,7 +368,10 @@ void Simulation::Stages::update_surface() {
 }
 
 void Simulation::Stages::search() {
-  switch (contact->due(nodes, step_size)) {
+  Contact::Search due = contact->due(nodes, step_size);
+  if (search_anew_) due = Contact::Search::regular;
+  search_anew_ = false;
+  switch (due) {
     case Contact::Search::none:
       break;
     case Contact::Search::regular:
@@ -370,6 +381,61 @@ void Simulation::Stages::search() {
       clock.time(adaptive_clock_, [this] { contact->adaptive_search(nodes); });
       break;
   }
+}
+
+/// Over a drift a force does the work of its mean between the two ends.
+void Simulation::Stages::add_load() {
+  load_.assign(nodes.position.size(), 0.0);
+  model.load({nodes.count(), time, nodes.position.data(), nodes.velocity.data(), load_.data()});
+  for (std::size_t i = 0; i < load_.size(); ++i) {
+    if (!std::isfinite(load_[i])) {
+      throw Error(Status::diverged, "the load at node " + std::to_string(i / 3) +
+                                        " is not a finite number at time " + std::to_string(1e6 * time) +
+                                        " us; check the load callback");
+    }
+    nodes.force[i] += load_[i];
+  }
+  if (steps > 0) external_work += 0.5 * step_size * load_work();
+}
+
+double Simulation::Stages::load_work() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < load_.size(); ++i) sum += load_[i] * nodes.velocity[i];
+  return sum;
+}
+
+void Simulation::Stages::set_state(std::vector<double>& field, std::span<const double> values,
+                                   const char* name) {
+  if (values.size() != field.size()) {
+    throw Error(Status::bad_argument, std::string("'") + name + "' has " + std::to_string(values.size()) +
+                                          " numbers; give three for each of the " +
+                                          std::to_string(nodes.count()) + " nodes that there are now");
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isfinite(values[i])) continue;
+    throw Error(Status::bad_argument,
+                std::string("'") + name + "' of node " + std::to_string(i / 3) + " is not a finite number");
+  }
+  const auto energy = [this] {
+    const Energies e = energies(part_energies());
+    return e.kinetic + e.strain + e.hourglass;
+  };
+  const double before = energy();
+  for (Index n = 0; n < nodes.count(); ++n) {
+    if (nodes.body[n] != kNone) continue;
+    for (int d = 0; d < 3; ++d) {
+      const std::size_t i = 3 * static_cast<std::size_t>(n) + d;
+      if (!(nodes.fixed[n] >> d & 1)) field[i] = values[i];
+    }
+  }
+  external_work += energy() - before;
+}
+
+void Simulation::Stages::set_positions(std::span<const double> values) {
+  set_state(nodes.position, values, "positions");
+  search_anew_ = true;
+  choose_step();
+  step_size = next_step_;
 }
 
 void Simulation::Stages::accelerate_all() {
@@ -630,6 +696,13 @@ std::span<const double> Simulation::masses() const {
 }
 Index Simulation::node_count() const {
   return stages_->nodes.count();
+}
+
+void Simulation::set_positions(std::span<const double> positions) {
+  stages_->set_positions(positions);
+}
+void Simulation::set_velocities(std::span<const double> velocities) {
+  stages_->set_state(stages_->nodes.velocity, velocities, "velocities");
 }
 
 const Model& Simulation::model() const {

@@ -55,6 +55,9 @@ typedef struct cdfp_model cdfp_model;
 typedef struct cdfp_simulation cdfp_simulation;
 typedef struct cdfp_recorder cdfp_recorder;
 typedef struct cdfp_topology cdfp_topology;
+typedef struct cdfp_cohesive cdfp_cohesive;
+typedef struct cdfp_contact_search cdfp_contact_search;
+typedef struct cdfp_contact cdfp_contact;
 
 /** One more owner of the object behind a handle of any kind: `copy` is a handle of its own to the same
  * object, and each of the two must be freed. The object goes with its last owner. */
@@ -131,6 +134,11 @@ int32_t cdfp_model_set_title(cdfp_model* model, const char* title);
  *  the order of `cdfp_model_add_part`. `layers` may be NULL. */
 int32_t cdfp_model_set_mesh(cdfp_model* model, int64_t nodes, const double* coordinates, int64_t elements,
                             const int32_t* hexahedra, const int32_t* parts, const int32_t* layers);
+/** The same for any bulk elements: `types` (elements) of CDFP_HEXAHEDRON and the like; `corners`: how many
+ *  numbers `connectivity` holds, the corners of all elements one after the other. */
+int32_t cdfp_model_set_mixed_mesh(cdfp_model* model, int64_t nodes, const double* coordinates,
+                                  int64_t elements, const int32_t* types, int64_t corners,
+                                  const int32_t* connectivity, const int32_t* parts, const int32_t* layers);
 int32_t cdfp_model_add_node_set(cdfp_model* model, const char* name, int64_t count, const int32_t* nodes);
 int32_t cdfp_model_add_facet_set(cdfp_model* model, const char* name, int64_t count, const int32_t* facets);
 
@@ -205,11 +213,13 @@ typedef struct cdfp_cohesive_law {
   double friction;          /**< Coulomb coefficient between closed faces */
   double friction_exponent; /**< of the growth of friction with damage */
   double internal_friction; /**< share of a pressure that holds the shear on a facet back */
-  double stiffness;       /**< Pa/m: of a bilinear law before its strength; steepest slope of a user's law */
-  double weibull_modulus; /**< of the scatter of the strength over facets; 0: none */
-  double weibull_area;    /**< m2 that `strength` belongs to; 0: each facet's own area */
-  int64_t seed;           /**< of the scatter */
-  int32_t kind;           /**< CDFP_LINEAR and the like */
+  double stiffness;        /**< Pa/m: of a bilinear law before its strength; steepest slope of a user's law */
+  double weibull_modulus;  /**< of the scatter of the strength over facets; 0: none */
+  double weibull_area;     /**< m2 that `strength` belongs to; 0: each facet's own area */
+  double rate_sensitivity; /**< c of the factor 1 + c ln(1 + opening rate / reference_rate); 0: none */
+  double reference_rate;   /**< m/s */
+  int64_t seed;            /**< of the scatter */
+  int32_t kind;            /**< CDFP_LINEAR and the like */
 } cdfp_cohesive_law;
 
 int32_t cdfp_cohesive_law_default(cdfp_cohesive_law* law);
@@ -277,15 +287,31 @@ int32_t cdfp_model_add_initial_velocity(cdfp_model* model, const char* part, con
                                         const double* gradient);
 int32_t cdfp_model_set_gravity(cdfp_model* model, const double* gravity);
 
+/** What a load is asked for at a step. Vectors are (nodes, 3); nodes that cracks made are among them. */
+typedef struct cdfp_nodal_load {
+  int64_t nodes;
+  double time;            /**< s */
+  const double* position; /**< m */
+  const double* velocity; /**< m/s, at the half step that led to `position` */
+  double* force;          /**< out, 0 at first: N */
+} cdfp_nodal_load;
+
+typedef void (*cdfp_load_callback)(const cdfp_nodal_load* load, void* user_data);
+
+/** Forces of the caller's own, once a step; their work is external work. The callback must not call cdfp with
+ *  the simulation's handle, and `user_data` must live as long as the model's simulations do. */
+int32_t cdfp_model_set_load_callback(cdfp_model* model, cdfp_load_callback callback, void* user_data);
+
 /** What `cdfp_model_get_contact` fills and `cdfp_model_set_contact` takes: get, change what differs, set. */
 typedef struct cdfp_contact_settings {
-  double cell_factor;    /**< w1: cell length over mean segment length */
-  double buffer_factor;  /**< w2: buffer over mean segment length */
-  double penalty_factor; /**< zeta in k = zeta K A^2 / V */
-  double friction;       /**< Coulomb coefficient */
-  double depth_limit;    /**< deepest penetration that counts, over the segment's element height */
-  int32_t edge_edge;     /**< 0: node-face pairs only */
-  int32_t adaptive;      /**< 0: a regular search whenever contact entities are new */
+  double cell_factor;         /**< w1: cell length over mean segment length */
+  double buffer_factor;       /**< w2: buffer over mean segment length */
+  double penalty_factor;      /**< zeta in k = zeta K A^2 / V */
+  double friction;            /**< Coulomb coefficient */
+  double depth_limit;         /**< deepest penetration that counts, over the segment's element height */
+  double penetration_warning; /**< share of that height from which a warning names the pair */
+  int32_t edge_edge;          /**< 0: node-face pairs only */
+  int32_t adaptive;           /**< 0: a regular search whenever contact entities are new */
 } cdfp_contact_settings;
 
 /** A facet set that may touch others and itself; without any the scene has no contact. */
@@ -368,6 +394,13 @@ int32_t cdfp_simulation_advance(cdfp_simulation* simulation, int64_t steps, int6
 /** Steps until half a step from `time` or nearer, or the end; `done` may be NULL. */
 int32_t cdfp_simulation_advance_to(cdfp_simulation* simulation, double time, int64_t* done);
 
+/** Called after every step with the handle that was stepped; not 0: no further step of this call. It may look
+ *  at the simulation and change its state, but not step it. */
+typedef int32_t (*cdfp_step_callback)(cdfp_simulation* simulation, void* user_data);
+/** NULL: none. */
+int32_t cdfp_simulation_set_monitor(cdfp_simulation* simulation, cdfp_step_callback callback,
+                                    void* user_data);
+
 int32_t cdfp_simulation_finished(const cdfp_simulation* simulation, int32_t* finished);
 int32_t cdfp_simulation_time(const cdfp_simulation* simulation, double* time);
 int32_t cdfp_simulation_step_size(const cdfp_simulation* simulation, double* step_size);
@@ -385,6 +418,13 @@ int32_t cdfp_simulation_velocities(const cdfp_simulation* simulation, const doub
 /** All nodal forces of the last step. */
 int32_t cdfp_simulation_forces(const cdfp_simulation* simulation, const double** forces, int64_t* nodes);
 int32_t cdfp_simulation_masses(const cdfp_simulation* simulation, const double** masses, int64_t* nodes);
+
+/* Changes of the state between steps, (nodes, 3). Nodes of rigid bodies and directions that are prescribed
+ * keep what they have; the energy that a change brings is external work. */
+/** Contact is searched anew. */
+int32_t cdfp_simulation_set_positions(cdfp_simulation* simulation, int64_t nodes, const double* positions);
+/** Half a step ahead of the positions. */
+int32_t cdfp_simulation_set_velocities(cdfp_simulation* simulation, int64_t nodes, const double* velocities);
 
 int32_t cdfp_simulation_body_count(const cdfp_simulation* simulation, int64_t* bodies);
 /** Bodies in the order of `cdfp_model_add_rigid_body`. */
@@ -476,6 +516,256 @@ int32_t cdfp_topology_insert_cohesive(cdfp_topology* topology, int32_t element, 
                                       int64_t* renumbered_count);
 /** The first relation that does not hold; length 0 if all do. */
 int32_t cdfp_topology_check(const cdfp_topology* topology, char* text, int64_t capacity, int64_t* length);
+
+/* ---- the cohesive law at single points ---------------------------------------------------------------- */
+
+/** State of one point of the extrinsic irreversible law; `cdfp_cohesive_law_start` fills it in. */
+typedef struct cdfp_cohesive_point {
+  double strength;   /**< Pa, effective traction at insertion */
+  double reach;      /**< m, effective opening at which no traction is left */
+  double largest;    /**< m, largest effective opening so far; broken once it is `reach` */
+  double dissipated; /**< J/m2 */
+  double opening[3]; /**< m, at the last call */
+  double insertion_traction[3];
+} cdfp_cohesive_point;
+
+/* Vectors are (count, 3); the laws of cdfp/cohesive.hpp, which says more. */
+
+/** Points that carry `traction` on faces with unit normals `normal`, from the lower to the upper side. */
+int32_t cdfp_cohesive_law_start(const cdfp_cohesive_law* law, int64_t count, const double* traction,
+                                const double* normal, cdfp_cohesive_point* points);
+/** Traction at `opening`; the state goes along the straight segment from the last one. */
+int32_t cdfp_cohesive_law_traction(const cdfp_cohesive_law* law, int64_t count, const double* opening,
+                                   const double* normal, cdfp_cohesive_point* points, double* traction);
+/** Mean traction over the increment: times the increment it is exactly the change of energy. */
+int32_t cdfp_cohesive_law_mean_traction(const cdfp_cohesive_law* law, int64_t count, const double* opening,
+                                        const double* normal, cdfp_cohesive_point* points, double* traction);
+/** J/m2 that each point gives back when it closes: `stored` (count). */
+int32_t cdfp_cohesive_law_stored(const cdfp_cohesive_law* law, int64_t count, const double* normal,
+                                 const cdfp_cohesive_point* points, double* stored);
+
+/* ---- cohesive elements between the caller's nodes ----------------------------------------------------- */
+
+/* For a driver of its own by central differences; the forces are those of a full simulation. In a step: move
+ * the nodes, compute all other forces, open facets (`cdfp_cohesive_find_open`; for each of them
+ * `cdfp_topology_insert_cohesive`, `cdfp_cohesive_follow`, `cdfp_cohesive_insert`),
+ * `cdfp_cohesive_add_force`, and only then change the velocities by step * force / mass. */
+
+/** Elements have consecutive numbers from `first_element` on: the count of bulk elements for those of a
+ *  topology, 0 for those of a caller who numbers them alone. */
+int32_t cdfp_cohesive_create(int32_t first_element, cdfp_cohesive** cohesive);
+int32_t cdfp_cohesive_free(cdfp_cohesive** cohesive);
+
+/** `number`: by which elements and parts name the law, from 0 in the order of these calls. */
+int32_t cdfp_cohesive_add_law(cdfp_cohesive* cohesive, const cdfp_cohesive_law* law, int32_t* number);
+/** A CDFP_USER law: see `cdfp_model_set_cohesive_callback`. */
+int32_t cdfp_cohesive_add_user_law(cdfp_cohesive* cohesive, const cdfp_cohesive_law* law,
+                                   cdfp_cohesive_callback callback, int32_t states, void* user_data,
+                                   int32_t* number);
+/** These nodes do not follow forces where `directions` (3) is not 0: prescribed, or of a rigid body. Their
+ *  copies inherit it. */
+int32_t cdfp_cohesive_hold(cdfp_cohesive* cohesive, int64_t count, const int32_t* nodes,
+                           const int32_t* directions);
+
+/** For `cdfp_cohesive_find_open`: `parts` (elements, the bulk ones), `law_of_part` (part_count, -1: does not
+ *  crack), `recovery` (CDFP_ELEMENT_MEAN or CDFP_NODAL), `strength_shares` (elements, may be NULL). All laws
+ *  must have been added. `coordinates` of the undeformed mesh. */
+int32_t cdfp_cohesive_set_parts(cdfp_cohesive* cohesive, const cdfp_topology* topology, int64_t nodes,
+                                const double* coordinates, int64_t elements, const int32_t* parts,
+                                int64_t part_count, const int32_t* law_of_part, int32_t recovery,
+                                const double* strength_shares);
+/** Facets between two elements of one part that reach their strength. `stress` (elements, 6): Cauchy, xx yy
+ *  zz xy yz zx. `facets` (count, 3): element, facet, law; `tractions` (count, 3). The views hold until the
+ *  next such call. */
+int32_t cdfp_cohesive_find_open(cdfp_cohesive* cohesive, const cdfp_topology* topology, int64_t nodes,
+                                const double* position, int64_t elements, const double* stress,
+                                const int32_t** facets, const double** tractions, int64_t* count);
+
+/** What `cdfp_topology_insert_cohesive` has reported, after each insertion and before `cdfp_cohesive_insert`:
+ *  `new_nodes` (new_node_count, 2), `renumbered` (renumbered_count, 4). */
+int32_t cdfp_cohesive_follow(cdfp_cohesive* cohesive, int64_t new_node_count, const int32_t* new_nodes,
+                             int64_t renumbered_count, const int32_t* renumbered);
+/** The next element. `corners` is 6 or 8: the upper face, then the lower face, as
+ *  `cdfp_topology_element_nodes` gives them. `traction` (3): what the upper side exerts on the lower one now;
+ *  NULL: nothing, for bonds. */
+int32_t cdfp_cohesive_insert(cdfp_cohesive* cohesive, int32_t element, int32_t law, int64_t corners,
+                             const int32_t* connectivity, const double* traction, int64_t nodes,
+                             const double* position, double time);
+/** Adds to `force`, which holds all others of the step. `velocity`: at the half step that led to `position`.
+ */
+int32_t cdfp_cohesive_add_force(cdfp_cohesive* cohesive, int64_t nodes, const double* position,
+                                const double* velocity, const double* mass, double* force, double step,
+                                double time, int32_t threads);
+
+int32_t cdfp_cohesive_count(const cdfp_cohesive* cohesive, int64_t* elements, int64_t* broken);
+/** Elements whose faces came free in the last `cdfp_cohesive_add_force`, ascending; the view holds until the
+ *  next. */
+int32_t cdfp_cohesive_broken_now(const cdfp_cohesive* cohesive, const int32_t** elements, int64_t* count);
+
+/** A node pair after the last `cdfp_cohesive_add_force`. */
+typedef struct cdfp_cohesive_pair {
+  double area;     /**< m2 that it stands for */
+  double strength; /**< Pa, effective traction at insertion */
+  double reach;    /**< m, effective opening at which no traction is left */
+  double largest;  /**< m, largest effective opening so far */
+  double damage;   /**< 0 to 1 */
+  double stored;   /**< J/m2 */
+  double dissipated;
+  int32_t upper; /**< node */
+  int32_t lower; /**< node; the same while the two sides hold together there */
+} cdfp_cohesive_pair;
+
+/** `pairs` has room for 4. */
+int32_t cdfp_cohesive_pairs(const cdfp_cohesive* cohesive, int32_t element, cdfp_cohesive_pair* pairs,
+                            int64_t* count);
+
+/** J: stored, dissipated by the cohesive tractions, friction heat between closed faces, and what the laws say
+ *  that the same openings dissipate. */
+int32_t cdfp_cohesive_energies(const cdfp_cohesive* cohesive, double* stored, double* dissipated,
+                               double* friction, double* by_law);
+/** omega^2 in 1/s2 that users' laws add to the elements' for the stable step 2/omega; the others add none. */
+int32_t cdfp_cohesive_stiffness_over_mass(const cdfp_cohesive* cohesive, int64_t nodes, const double* mass,
+                                          double* stiffness_over_mass);
+
+/* ---- contact search on the caller's arrays ------------------------------------------------------------ */
+
+/** `cell_factor` and `buffer_factor`: cell and buffer over the mean segment length (1.0 and 0.4 are usual).
+ *  `adaptive`: not 0 if `cdfp_contact_search_adaptive` will be called. */
+int32_t cdfp_contact_search_create(double cell_factor, double buffer_factor, int32_t adaptive,
+                                   cdfp_contact_search** search);
+int32_t cdfp_contact_search_free(cdfp_contact_search** search);
+
+/** All candidate pairs. `contact_nodes` (contact_node_count); `segments` (segment_count, 4): corners, -1 last
+ *  in a triangle; `edges` (edge_count, 2); `groups` (nodes): entities of one group >= 0 do not pair; may be
+ *  NULL. */
+int32_t cdfp_contact_search_regular(cdfp_contact_search* search, int64_t nodes, const double* position,
+                                    int64_t contact_node_count, const int32_t* contact_nodes,
+                                    int64_t segment_count, const int32_t* segments, int64_t edge_count,
+                                    const int32_t* edges, const int32_t* groups, int32_t threads);
+/** Adds the pairs of what was appended to the arrays since the last search, and of old segments and edges
+ * that name other nodes at the same place. */
+int32_t cdfp_contact_search_adaptive(cdfp_contact_search* search, int64_t nodes, const double* position,
+                                     int64_t contact_node_count, const int32_t* contact_nodes,
+                                     int64_t segment_count, const int32_t* segments, int64_t edge_count,
+                                     const int32_t* edges, const int32_t* groups,
+                                     int64_t renamed_segment_count, const int32_t* renamed_segments,
+                                     int64_t renamed_edge_count, const int32_t* renamed_edges);
+/** Once a step: whether entities may have moved so far that a regular search is due. */
+int32_t cdfp_contact_search_due(cdfp_contact_search* search, double largest_speed, double step, int32_t* due);
+/** m: cell length, buffer, bound on the relative movement since the last regular search. */
+int32_t cdfp_contact_search_lengths(const cdfp_contact_search* search, double* cell, double* buffer,
+                                    double* travel);
+/** Pairs as compressed rows: the partners of row r stand in [start[r], start[r + 1]), ascending. Rows are
+ *  places in `contact_nodes`, partners segments. The views hold until the next call with this handle. */
+int32_t cdfp_contact_search_node_segments(cdfp_contact_search* search, const int32_t** start,
+                                          const int32_t** partners, int64_t* rows);
+/** The same for edges: the row is the smaller edge of each pair. */
+int32_t cdfp_contact_search_edge_edges(cdfp_contact_search* search, const int32_t** start,
+                                       const int32_t** partners, int64_t* rows);
+
+/** The point of a face closest to `point` (3). `corners` is 3 or 4, `coordinates` (corners, 3) in outward
+ *  order. `shape` has room for 4: shape functions of the corners there; `normal` (3): unit, outward; `gap`:
+ *  negative behind the face; `outside`: how far past the face's border. */
+int32_t cdfp_project_on_face(const double* point, int64_t corners, const double* coordinates, double* shape,
+                             double* normal, double* gap, double* outside);
+
+/* ---- contact and friction forces on the caller's arrays ----------------------------------------------- */
+
+/* In a step, after all forces but the cohesive ones: `cdfp_contact_due`, the search that it names,
+ * `cdfp_contact_local_search`, `cdfp_contact_add_force`. Arrays are those of all nodes of the mesh. */
+
+/** What a model starts with. */
+int32_t cdfp_contact_settings_default(cdfp_contact_settings* settings);
+int32_t cdfp_contact_create(const cdfp_contact_settings* settings, cdfp_contact** contact);
+int32_t cdfp_contact_free(cdfp_contact** contact);
+
+/** For messages. */
+int32_t cdfp_contact_name_part(cdfp_contact* contact, int32_t part, const char* name);
+/** Segments: `segments` (count, 4) corners in outward order, -1 last in a triangle; `elements` that own them;
+ *  `parts`; `bulk_modulus` in Pa; `area` in m2; `volume` of the element in m3. */
+int32_t cdfp_contact_add_segments(cdfp_contact* contact, int64_t count, const int32_t* segments,
+                                  const int32_t* elements, const int32_t* parts, const double* bulk_modulus,
+                                  const double* area, const double* volume);
+/** The same for facets (count, 2) of a topology, at the start or when the faces of a crack came free: mates
+ * of the broken cohesive elements' facets. `coordinates` of the undeformed mesh, for nodes as they are
+ * numbered now; `parts` of the bulk elements; `bulk_modulus` (part_count). */
+int32_t cdfp_contact_add_facets(cdfp_contact* contact, const cdfp_topology* topology, int64_t nodes,
+                                const double* coordinates, int64_t count, const int32_t* facets,
+                                int64_t elements, const int32_t* parts, int64_t part_count,
+                                const double* bulk_modulus);
+/** What `cdfp_topology_insert_cohesive` has reported, after each insertion: renames corners of segments, and
+ *  shares the springs between split nodes. */
+int32_t cdfp_contact_follow(cdfp_contact* contact, int64_t new_node_count, const int32_t* new_nodes,
+                            int64_t renumbered_count, const int32_t* renumbered);
+
+enum {
+  CDFP_SEARCH_NONE = 0,
+  CDFP_SEARCH_REGULAR = 1, /**< call `cdfp_contact_regular_search` */
+  CDFP_SEARCH_ADAPTIVE = 2 /**< call `cdfp_contact_adaptive_search` */
+};
+
+/** Once a step. `velocity` that led to the positions. */
+int32_t cdfp_contact_due(cdfp_contact* contact, int64_t nodes, const double* velocity, double step,
+                         int32_t threads, int32_t* search);
+/** `groups` (nodes): rigid body of each node or -1; may be NULL. */
+int32_t cdfp_contact_regular_search(cdfp_contact* contact, int64_t nodes, const double* position,
+                                    const int32_t* groups, int32_t threads);
+int32_t cdfp_contact_adaptive_search(cdfp_contact* contact, int64_t nodes, const double* position,
+                                     const int32_t* groups);
+int32_t cdfp_contact_local_search(cdfp_contact* contact, int64_t nodes, const double* position,
+                                  int32_t threads);
+/** Adds to `force`. */
+int32_t cdfp_contact_add_force(cdfp_contact* contact, int64_t nodes, const double* velocity,
+                               const double* mass, double* force, double step, int32_t threads);
+
+/** Contact nodes, segments, edges, and pairs that touch. */
+int32_t cdfp_contact_counts(const cdfp_contact* contact, int64_t* nodes, int64_t* segments, int64_t* edges,
+                            int64_t* touching);
+/** The contact nodes, which are the rows of `cdfp_contact_node_segments`; holds until segments or splits are
+ *  new. */
+int32_t cdfp_contact_nodes(const cdfp_contact* contact, const int32_t** nodes, int64_t* count);
+/** Candidate pairs as compressed rows: see `cdfp_contact_search_node_segments`. */
+int32_t cdfp_contact_node_segments(cdfp_contact* contact, const int32_t** start, const int32_t** partners,
+                                   int64_t* rows);
+int32_t cdfp_contact_edge_edges(cdfp_contact* contact, const int32_t** start, const int32_t** partners,
+                                int64_t* rows);
+
+/** A pair that touches: `force` acts on the first `first_count` nodes by their weights, its opposite on the
+ *  others by theirs. */
+typedef struct cdfp_touch {
+  double weights[5]; /**< positive on the first side, negative on the other; each side sums to 1 */
+  double normal[3];  /**< out of the other side */
+  double gap;        /**< m, negative */
+  double force[3];   /**< N */
+  int32_t nodes[5];
+  int32_t first_count; /**< 1: node on face; 2: edge on edge */
+  int32_t count;       /**< of nodes */
+  int32_t parts[2];
+} cdfp_touch;
+
+/** The view holds until the next call with this handle. */
+int32_t cdfp_contact_touches(cdfp_contact* contact, const cdfp_touch** touches, int64_t* count);
+
+/** Two parts that have touched, in ascending order, or one that touched itself. */
+typedef struct cdfp_body_pair {
+  double force[3];      /**< N, on the first by the second at the last `cdfp_contact_add_force` */
+  double stored;        /**< J, in springs then */
+  double friction_heat; /**< J, so far */
+  double peak_force;    /**< N, so far */
+  double deepest;       /**< m, so far */
+  int32_t parts[2];
+} cdfp_body_pair;
+
+/** In the order in which they first touched; the view holds until the next call with this handle. */
+int32_t cdfp_contact_body_pairs(cdfp_contact* contact, const cdfp_body_pair** pairs, int64_t* count);
+/** J stored in springs, J of friction heat so far, m of the deepest penetration so far. */
+int32_t cdfp_contact_energies(const cdfp_contact* contact, double* stored, double* friction_heat,
+                              double* deepest);
+/** omega^2 in 1/s2 that the contact springs add to the elements' for the stable step 2/omega. */
+int32_t cdfp_contact_stiffness_over_mass(const cdfp_contact* contact, double* stiffness_over_mass);
+int32_t cdfp_contact_warning_count(const cdfp_contact* contact, int64_t* count);
+int32_t cdfp_contact_warning(const cdfp_contact* contact, int64_t warning, char* text, int64_t capacity,
+                             int64_t* length);
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,5 @@
 /// Contact as services that work on a caller's own arrays: global search, projection on a face, and the whole
-/// sequence of search, penalty and friction. Nothing here needs a model or a topology.
+/// sequence of search, penalty and friction. Nothing here needs a model; a topology is a convenience.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cdfp/model.hpp"
+#include "cdfp/topology.hpp"
 #include "cdfp/types.hpp"
 
 namespace cdfp {
@@ -34,17 +35,38 @@ class PairRows {
   void compress(std::vector<Index>& start, std::vector<Index>& partners) const;
   std::size_t memory() const;
 
-  /// The rows of one partner after another: those of the i-th end at `end[i]`.
-  struct Found {
-    std::vector<Index> rows;
-    std::vector<std::size_t> end;
-    void reset(std::int64_t partners) {
-      rows.clear();
-      end.resize(static_cast<std::size_t>(partners));
+  /// What one thread found for its share of the partners, one partner after another.
+  class Found {
+   public:
+    /// Of `partners` from `first` on.
+    void start(Index first, Index partners, Index rows);
+    /// The rows of the next partners go to `room()`, up to `room_size()` of them.
+    Index* room() { return rows_.data() + count_; }
+    std::size_t room_size() const { return rows_.size() - count_; }
+    void make_room();
+    /// `count` rows were written there; those of the i-th partner of them end at `ends[i]`.
+    void took(std::size_t count, std::span<const Index> ends);
+    void add(Index row) {
+      if (count_ == rows_.size()) make_room();
+      rows_[count_++] = row;
+      ++row_counts_[row];
     }
+    void end_partner() { ends_.push_back(static_cast<Index>(count_)); }
+    std::size_t memory() const {
+      return (rows_.capacity() + ends_.capacity() + row_counts_.capacity()) * sizeof(Index);
+    }
+
+   private:
+    friend class PairRows;
+    Index first_ = 0, partners_ = 0;
+    std::vector<Index> rows_;        // as long as its use so far; the first `count_` of them hold
+    std::vector<Index> ends_;        // of the partners
+    std::vector<Index> row_counts_;  // then where each row goes on
+    std::size_t count_ = 0;
   };
-  /// Starts anew from what was found, piece after piece; the first partner is 0.
-  void assign(Index rows, std::span<const Found> pieces);
+  /// Starts anew from what was found, share after share; the first partner is 0. Throws
+  /// `Error(bad_argument)` if there are more pairs than 32 bits count.
+  void assign(Index rows, std::span<Found> shares);
   void add_rows(Index count) { head_.resize(head_.size() + count, kNone); }
   void add(Index row, Index partner) {
     const Index next = head_[row];
@@ -153,12 +175,29 @@ class SurfaceContact {
 
   /// Its number. Contact edges come where two segments of one element meet.
   Index add_segment(const Segment& segment);
+  /// What facets of a topology's bulk elements need as segments, from the undeformed mesh.
+  struct FacetSource {
+    const Topology& topology;
+    std::span<const double> reference;     ///< (n, 3), m: of the nodes as they are numbered now
+    std::span<const Index> parts;          ///< part of each bulk element
+    std::span<const double> bulk_modulus;  ///< Pa, by part
+  };
+  /// Facets as segments in their order: the surface at the start, and the free faces of elements beside a
+  /// cohesive element that broke. Throws `Error(bad_argument)` naming the facet that is wrong.
+  void add_facets(const FacetSource& source, std::span<const FacetUse> facets);
+  /// All renames and splits of an insertion in the topology.
+  void follow(std::span<const Insertion::NewNode> new_nodes,
+              std::span<const Insertion::Renumbered> renumbered);
   /// `element` names `new_node` where it named `old_node`, at the same place.
   void rename(Index element, Index old_node, Index new_node);
   /// After all renames of a split: the copy takes its share of what holds the mother.
   void split(Index mother, Index copy);
 
+  // Throw `Error(bad_argument)` for arrays that are too short, `Error(bad_state)` for a search that is
+  // missing.
+
   enum class Search { none, regular, adaptive };
+  /// Which search the step needs before `local_search`.
   Search due(const Arrays& arrays, double step, int threads = 1);
   void regular_search(const Arrays& arrays, int threads = 1);
   void adaptive_search(const Arrays& arrays);
@@ -168,6 +207,8 @@ class SurfaceContact {
   Index segment_count() const;
   Index edge_count() const;
   Index node_count() const;
+  std::span<const Index> nodes() const;     ///< contact nodes: rows of the search's pairs
+  std::span<const Index> segments() const;  ///< (m, 4), kNone last in a triangle
   const ContactSearch& search() const;
 
   /// A pair that touches: the force acts on the first `first_count` nodes by their weights, its opposite on

@@ -125,7 +125,14 @@ struct CohesiveLaw {
   double weibull_modulus = 0;
   double weibull_area = 0;  ///< m2 that `strength` belongs to; 0: each facet's own (no size effect)
   std::int64_t seed = 0;
-  int states = 0;  ///< numbers that a user's law keeps at each point
+  /// c: while it opens further, at the rate v of the effective opening, the traction is that of the law times
+  /// 1 + c ln(1 + v / reference_rate), and so are the peak and the energy that it dissipates; at rest it is
+  /// the law. Facets open at `strength`. A factor on the traction by the opening rate: Glennie 1971 (J. Mech.
+  /// Phys. Solids 19, 255) and Kubair, Geubelle, Huang 2003 (Eng. Fract. Mech. 70, 685); its logarithm:
+  /// Johnson and Cook 1985. Not for user laws. 0: no rate dependence.
+  double rate_sensitivity = 0;
+  double reference_rate = 0;  ///< m/s
+  int states = 0;             ///< numbers that a user's law keeps at each point
   /// A user's law; never called from two threads at once by one simulation.
   std::function<void(const CohesivePoints&)> callback = nullptr;
 };
@@ -186,6 +193,15 @@ struct InitialVelocity {
   std::array<double, 9> gradient{};  ///< 1/s, row by row
 };
 
+/// What a load is asked for at a step. Vectors are (nodes, 3); nodes that cracks made are among them.
+struct NodalLoad {
+  std::int64_t nodes = 0;
+  double time = 0;                   ///< s
+  const double* position = nullptr;  ///< m
+  const double* velocity = nullptr;  ///< m/s, at the half step that led to `position`
+  double* force = nullptr;           ///< out, 0 at first: N
+};
+
 struct ContactSettings {
   std::vector<std::string> surfaces;  ///< facet sets; empty: no contact in the scene
   double cell_factor = 1.0;           ///< w1: cell length over mean segment length
@@ -193,6 +209,7 @@ struct ContactSettings {
   double penalty_factor = 1.0;        ///< zeta in k = zeta K A^2 / V
   double friction = 0;                ///< Coulomb coefficient
   double depth_limit = 0.5;           ///< deepest penetration that counts, over the segment's element height
+  double penetration_warning = 0.1;   ///< share of that height from which a warning names the pair
   bool edge_edge = true;
   bool adaptive = true;  ///< false: a regular search whenever contact entities are new
 };
@@ -224,6 +241,9 @@ struct Model {
   std::vector<PrescribedVelocity> prescribed_velocities;
   std::vector<InitialVelocity> initial_velocities;
   std::array<double, 3> gravity{};
+  /// Forces of the caller's own; called once a step, never from two threads at once by one simulation. Their
+  /// work is external work.
+  std::function<void(const NodalLoad&)> load = nullptr;
   ContactSettings contact;
   TimeSettings time;
   OutputSettings output;

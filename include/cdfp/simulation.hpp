@@ -43,6 +43,12 @@ class Simulation {
   std::span<const double> masses() const;
   Index node_count() const;
 
+  // Changes of the state between steps, (n, 3). Nodes of rigid bodies and directions that are prescribed keep
+  // what they have; the energy that a change brings is external work. Throw `Error(bad_argument)` for another
+  // length and for what is not finite; nothing is changed then.
+  void set_positions(std::span<const double> positions);    ///< m; contact is searched anew
+  void set_velocities(std::span<const double> velocities);  ///< m/s, half a step ahead of the positions
+
   const Model& model() const;  ///< its mesh as it was at the start
   const Topology& topology() const;
 

@@ -13,7 +13,6 @@ constexpr int kIterations = 30;
 constexpr int kUndamped = 2;  ///< iterations before a correction that does not help is halved
 constexpr double kSoftened =
     0.01;  ///< of the stiffness, for good, where even a slow approach does not settle
-constexpr double kTolerance = 1e-9;  ///< of the reach
 
 /// Gaussian elimination with row exchange; `b` becomes the solution.
 void eliminate(int n, double* a, double* b) {
@@ -164,7 +163,7 @@ bool ClusterSolver::approach(double tolerance) {
   return settled;
 }
 
-void ClusterSolver::solve(double step) {
+void ClusterSolver::solve(double step, double share) {
   const std::size_t n = nodes.size();
   half_ = 0.5 * step;
   relative_.assign(n, {});
@@ -173,7 +172,7 @@ void ClusterSolver::solve(double step) {
   stiffness_.resize(9 * n * n);
   double reach = std::numeric_limits<double>::infinity();
   for (const Point& p : points) reach = std::min(reach, p.increment.softening.reach);
-  const double tolerance = kTolerance * reach;
+  const double tolerance = share * reach;
 
   start(true);
   bool settled = iterate(tolerance);

@@ -34,8 +34,8 @@ class ClusterSolver {
   std::vector<Node> nodes;
   std::vector<Point> points;
 
-  /// Solves for what `nodes` and `points` hold.
-  void solve(double step);
+  /// Solves for what `nodes` and `points` hold, to a share of the points' reach.
+  void solve(double step, double tolerance);
 
   std::int64_t solved = 0;          ///< clusters, counted by the caller
   std::int64_t evaluations = 0;     ///< of all points of a cluster, so far

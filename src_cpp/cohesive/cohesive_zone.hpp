@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cdfp/cohesive.hpp"
 #include "cdfp/model.hpp"
 #include "cdfp/results.hpp"
 #include "cdfp/topology.hpp"
@@ -23,6 +24,8 @@ enum class CohesiveScheme {
 class CohesiveZone {
  public:
   explicit CohesiveZone(const Model& model, CohesiveScheme scheme = CohesiveScheme::mean_traction);
+  /// For a caller's own elements, which have consecutive numbers from `first_element` on.
+  explicit CohesiveZone(Index first_element);
   ~CohesiveZone();
   CohesiveZone(CohesiveZone&&) noexcept;
   CohesiveZone& operator=(CohesiveZone&&) noexcept;
@@ -30,16 +33,28 @@ class CohesiveZone {
   /// A cohesive element was inserted in the topology (and the nodes cloned). `facet.traction` is what it must
   /// carry at first. Corners of older cohesive elements that `insertion.renumbered` names are followed.
   void insert(const Topology& topology, const Insertion& insertion, const OpenFacet& facet,
-              const Nodes& nodes, double time);
+              const NodeArrays& nodes, double time);
 
   /// The same for a facet that is bonded from the start by a law of its own and carries nothing yet.
   void insert_bond(const Topology& topology, const Insertion& insertion, const std::string& law,
-                   const Nodes& nodes);
+                   const NodeArrays& nodes);
+
+  // The same step by step, for elements of a caller's.
+  void add_law(const CohesiveLaw& law);
+  /// New nodes, and corners of cohesive elements that name them.
+  void follow(const Insertion& insertion);
+  /// The next element. `corners`: of the upper face, then of the lower face in its element's outward order.
+  void insert(Index law, std::span<const Index> corners, Vec3 traction, const NodeArrays& nodes, double time);
+  /// A node of a live pair whose position or velocity is not finite, or that has no mass; or kNone.
+  Index first_bad_node(const NodeArrays& nodes) const;
+  /// By the order of insertion.
+  Index corner_count(Index facet) const;
+  CohesivePointState point(Index facet, Index corner) const;
 
   /// Adds the cohesive (and closed-face contact and friction) forces at the node pairs to `nodes.force`,
   /// which holds all other forces of the step already, and advances the state. Velocities must change by
   /// `step * force / mass` afterwards. The same bits for any number of threads.
-  void add_force(Nodes& nodes, double step, double time, const Threads& threads);
+  void add_force(const NodeArrays& nodes, double step, double time, const Threads& threads);
 
   /// Cohesive elements (topology numbers) that lost their last point in the last `add_force`, ascending.
   /// Corners where the nodes are still one do not count.
@@ -63,7 +78,7 @@ class CohesiveZone {
 
   /// 4 / step^2 below which the stiffnesses that users' laws name are followed as they are, 1/s2: for the
   /// stable step. The built-in laws are solved for and bound no step.
-  double stiffness_over_mass(const Nodes& nodes) const;
+  double stiffness_over_mass(const NodeArrays& nodes) const;
 
   /// For output, in the order of insertion. Bonds show once they are damaged.
   std::vector<CrackFacet> facets(const Topology& topology) const;

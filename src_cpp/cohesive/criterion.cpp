@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
+#include <limits>
 
 #include "cohesive/law.hpp"
 
@@ -24,47 +24,56 @@ double opening_traction(Vec3 traction, Vec3 normal, const CohesiveLaw& law) {
   return std::max(0.0, shear - law.internal_friction * pressure) / law.shear_ratio;
 }
 
+constexpr std::int64_t kPiece = 64;  ///< elements that one thread looks at together
+
 double norm_of(const Mat3& a) {
   return std::sqrt(dot(a.r[0], a.r[0]) + dot(a.r[1], a.r[1]) + dot(a.r[2], a.r[2]));
 }
 
 }  // namespace
 
-/// Each element's stress is asked for once.
-class Criterion::Stresses {
- public:
-  explicit Stresses(const std::function<Mat3(Index)>& stress) : stress_(stress) {}
-  const Mat3& of(Index element) const {
-    const auto [place, is_new] = known_.try_emplace(element);
-    if (is_new) place->second = stress_(element);
-    return place->second;
-  }
-
- private:
-  const std::function<Mat3(Index)>& stress_;
-  mutable std::unordered_map<Index, Mat3> known_;
-};
-
-Criterion::Criterion(const Model& model) : strength_(model), recovery_(model.stress_recovery) {}
-
-std::vector<Index> Criterion::able_to_crack(std::span<const Index> candidates,
-                                            const Stresses& stresses) const {
-  std::vector<Index> able;
-  for (const Index e : candidates) {
-    const CohesiveLaw* law = strength_.law_of(e);
-    if (!law) continue;
-    // A little less, as a norm and a traction round differently.
-    const double least = (1 - 1e-12) * strength_.least_of_element(e) * std::min(1.0, law->shear_ratio);
-    if (norm_of(stresses.of(e)) >= least) able.push_back(e);
-  }
-  return able;
+Criterion::Criterion(const Model& model) : strength_(model), recovery_(model.stress_recovery) {
+  place_.assign(model.mesh.types.size(), kNone);
 }
 
-std::vector<Index> Criterion::with_neighbours(std::span<const Index> elements,
-                                              const Topology& topology) const {
+/// A little less, as a norm and a traction round differently.
+double Criterion::least_norm(Index element) const {
+  const CohesiveLaw* law = strength_.law_of(element);
+  return law ? (1 - 1e-12) * strength_.least_of_element(element) * std::min(1.0, law->shear_ratio)
+             : std::numeric_limits<double>::infinity();
+}
+
+void Criterion::list(std::span<const Index> elements, std::span<const Mat3> stresses, const Scene& scene,
+                     const Threads& threads) {
+  listed_.assign(elements.begin(), elements.end());
+  stresses_.resize(listed_.size());
+  norms_.resize(listed_.size());
+  threads.for_ranges(std::ssize(listed_), kPiece, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      stresses_[i] = stresses.empty() ? scene.stress(listed_[i]) : stresses[i];
+      norms_[i] = norm_of(stresses_[i]);
+    }
+  });
+  for (std::size_t i = 0; i < listed_.size(); ++i) place_[listed_[i]] = static_cast<Index>(i);
+}
+
+void Criterion::find_able() {
+  able_.clear();
+  is_able_.resize(listed_.size());
+  for (std::size_t i = 0; i < listed_.size(); ++i) {
+    is_able_[i] = static_cast<std::uint8_t>(norms_[i] >= least_norm(listed_[i]));
+    if (is_able_[i] != 0) able_.push_back(listed_[i]);
+  }
+}
+
+void Criterion::forget() {
+  for (const Index e : listed_) place_[e] = kNone;
+}
+
+std::vector<Index> Criterion::with_neighbours(const Topology& topology) const {
   std::vector<Index> all;
   std::vector<VertexUse> around;
-  for (const Index e : elements) {
+  for (const Index e : able_) {
     for (const Index node : topology.nodes(e)) {
       topology.elements_around_node(node, around);
       for (const VertexUse& use : around) {
@@ -77,63 +86,75 @@ std::vector<Index> Criterion::with_neighbours(std::span<const Index> elements,
   return all;
 }
 
-std::vector<Criterion::Side> Criterion::facets_of(std::span<const Index> elements,
-                                                  const Topology& topology) const {
-  std::vector<Side> sides;
-  for (const Index e : elements) {
-    if (!strength_.law_of(e)) continue;
-    for (Index f = 0; f < topology.facet_count(e); ++f) {
-      const FacetUse mate = topology.mate({e, f});
-      if (mate.element == kNone || mate.element >= topology.bulk_count()) continue;
-      if (strength_.part_of(mate.element) != strength_.part_of(e)) continue;
-      if (mate.element > e) {
-        sides.push_back({{e, f}, mate.element});
-      } else if (!std::binary_search(elements.begin(), elements.end(), mate.element)) {
-        sides.push_back({mate, e});
-      }
-    }
-  }
-  return sides;
-}
-
 /// Sums go over elements in the order of their numbers, whichever facet asks.
-Mat3 Criterion::nodal_stress(const FacetNodes& facet, Index part, const Topology& topology,
-                             const Stresses& stresses) const {
+Mat3 Criterion::nodal_stress(const FacetNodes& facet, Index part, const Scene& scene) const {
   Mat3 sum;
   std::vector<VertexUse> around;
   for (const Index node : facet.view()) {
-    topology.elements_around_node(node, around);
+    scene.topology.elements_around_node(node, around);
     std::erase_if(around, [&](const VertexUse& use) {
-      return use.element >= topology.bulk_count() || strength_.part_of(use.element) != part;
+      return use.element >= scene.topology.bulk_count() || strength_.part_of(use.element) != part;
     });
     Mat3 at_node;
-    for (const VertexUse& use : around) at_node = at_node + stresses.of(use.element);
+    for (const VertexUse& use : around) at_node = at_node + stress_of(use.element, scene);
     sum = sum + 1.0 / (static_cast<double>(around.size()) * facet.count) * at_node;
   }
   return sum;
 }
 
-void Criterion::find(std::span<const Index> candidates, const Topology& topology,
-                     std::span<const double> position, const std::function<Mat3(Index)>& stress,
-                     std::vector<OpenFacet>& open) const {
-  open.clear();
-  const Stresses stresses(stress);
-  std::vector<Index> elements = able_to_crack(candidates, stresses);
+void Criterion::look_at_facets(Index element, const Scene& scene, std::vector<OpenFacet>& open) const {
+  const CohesiveLaw* law = strength_.law_of(element);
+  if (!law) return;
   const bool nodal = recovery_ == StressRecovery::nodal;
-  if (nodal) elements = with_neighbours(elements, topology);
-  for (const Side& side : facets_of(elements, topology)) {
-    const CohesiveLaw& law = *strength_.law_of(side.upper);
-    const FacetNodes facet = topology.facet_nodes(side.lower);
-    const Vec3 normal = normalized(doubled_area(facet, position));
-    const Mat3 recovered = nodal ? nodal_stress(facet, strength_.part_of(side.upper), topology, stresses)
-                                 : 0.5 * (stresses.of(side.lower.element) + stresses.of(side.upper));
-    const Vec3 traction = recovered * normal;
-    if (opening_traction(traction, normal, law) >= strength_.of(side.lower, side.upper)) {
-      open.push_back({side.lower, traction});
+  const double own_norm = norms_[place_[element]];
+  for (Index f = 0; f < scene.topology.facet_count(element); ++f) {
+    const FacetUse use{element, f}, mate = scene.topology.mate(use);
+    if (mate.element == kNone || mate.element >= scene.topology.bulk_count()) continue;
+    if (strength_.part_of(mate.element) != strength_.part_of(element)) continue;
+    const Index place = place_[mate.element];
+    if (mate.element < element && place != kNone && is_able_[place] != 0) continue;  // its turn
+    const FacetUse lower = mate.element > element ? use : mate;
+    const double strength = strength_.of(lower, std::max(element, mate.element));
+    if (!nodal) {
+      const double mate_norm = place != kNone ? norms_[place] : (1 + 1e-9) * least_norm(mate.element);
+      if (0.5 * (own_norm + mate_norm) < (1 - 1e-9) * strength * std::min(1.0, law->shear_ratio)) continue;
     }
+    const FacetNodes facet = scene.topology.facet_nodes(lower);
+    const Vec3 normal = normalized(doubled_area(facet, scene.position));
+    const Mat3 recovered =
+        nodal ? nodal_stress(facet, strength_.part_of(element), scene)
+              : 0.5 * (stress_of(lower.element, scene) + stress_of(std::max(element, mate.element), scene));
+    const Vec3 traction = recovered * normal;
+    if (opening_traction(traction, normal, *law) >= strength) open.push_back({lower, traction});
   }
+}
+
+void Criterion::find(std::span<const Index> candidates, std::span<const Mat3> candidate_stresses,
+                     const Topology& topology, std::span<const double> position,
+                     const std::function<Mat3(Index)>& stress, std::vector<OpenFacet>& open,
+                     const Threads& threads) {
+  open.clear();
+  if (candidates.empty()) return;
+  const Scene scene{topology, position, stress};
+  list(candidates, candidate_stresses, scene, threads);
+  find_able();
+  if (recovery_ == StressRecovery::nodal) {
+    const std::vector<Index> wider = with_neighbours(topology);
+    forget();
+    list(wider, {}, scene, threads);
+    is_able_.assign(wider.size(), 1);
+    able_ = wider;
+  }
+  found_.resize((able_.size() + kPiece - 1) / kPiece);
+  threads.for_ranges(std::ssize(able_), kPiece, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<OpenFacet>& here = found_[begin / kPiece];
+    here.clear();
+    for (std::int64_t i = begin; i < end; ++i) look_at_facets(able_[i], scene, here);
+  });
+  for (const std::vector<OpenFacet>& piece : found_) open.insert(open.end(), piece.begin(), piece.end());
   std::sort(open.begin(), open.end(),
             [](const OpenFacet& a, const OpenFacet& b) { return a.lower < b.lower; });
+  forget();
 }
 
 }  // namespace cdfp

@@ -44,10 +44,11 @@ struct Increment {
   double unloading = 0;  ///< Pa/m, K(largest); 0 once broken
   double contact = 0;    ///< Pa/m, stiffness of the closed face; 0 leaves contact to others
   double friction = 0;   ///< Coulomb coefficient, scaled by eq. 31
-  double area = 0;       ///< m2
-  Vec3 given;            ///< Pa, by a user's law: the same over the whole increment
-  bool linear = false;   ///< stiffness and contact as `freeze` found them
-  bool closed = false;   ///< as `freeze` found it
+  RateFactor rate;
+  double area = 0;      ///< m2
+  Vec3 given;           ///< Pa, by a user's law: the same over the whole increment
+  bool linear = false;  ///< stiffness and contact as `freeze` found them
+  bool closed = false;  ///< as `freeze` found it
 
   /// Takes the stiffness of contact and of a little opened face down to `share` of that of contact.
   void soften(double share) {
@@ -59,6 +60,7 @@ struct Increment {
 
   /// Fixes all that makes the reaction nonlinear as it is at opening `x`.
   void freeze(Vec3 x) {
+    if (linear) return;
     const Split to(x, normal);
     const double r = weights.opening(to.n, to.t2());
     if (unloading > 0 && r > largest) {
@@ -68,6 +70,12 @@ struct Increment {
     closed = from_n < 0 && to.n < 0;
     friction = 0;
     linear = true;
+  }
+
+  /// J/m2, what the traction beyond the law does by its rate on the way to effective opening `r` at `to`.
+  double rate_work(const Split& to, double r) const {
+    if (rate.sensitivity == 0 || !(unloading > 0) || r <= largest) return 0;
+    return rate.excess(r - largest) * law_work(to, r);
   }
 
   /// With or without its slope.
@@ -98,7 +106,40 @@ struct Increment {
       const Vec3 gradient = std::max(to.n, 0.0) * normal + weights.effective * to.t;
       if constexpr (Sloped) out.slope.add_dyad((k.slope / r) * path, gradient);
       if (weights.mode_ratio != 1) add_path<Sloped>(to, r, k, gradient, out);
+      if (rate.sensitivity > 0) add_rate<Sloped>(to, r, gradient / r, out);
     }
+  }
+
+  /// J/m2, of the law's own traction where it softens, from `largest` to `r`.
+  double law_work(const Split& to, double r) const {
+    const double end = std::min(r, softening.reach);
+    const double growth = weights.mode_ratio == 1
+                              ? end - largest
+                              : weighted_growth(weights, normal, from_n * normal + from_t,
+                                                to.n * normal + to.t, largest, softening.reach);
+    return softening.scale * (1 - 0.5 * (largest + end) / softening.reach) * growth;
+  }
+
+  /// What the rate adds goes along the gradient of r, so that it never gives energy; along the increment
+  /// where that gradient turns on the way (Gonzalez 1996), so that its work is `rate_work`.
+  template <bool Sloped>
+  void add_rate(const Split& to, double r, Vec3 gradient, Reaction& out) const {
+    const double way = r - r0;
+    const Vec3 moved = (to.n - from_n) * normal + (to.t - from_t);
+    const double square = dot(moved, moved);
+    if (way <= 1e-12 * r || square == 0) return;
+    const double law = law_work(to, r);
+    const double excess = rate.excess(r - largest);
+    const Vec3 direction = gradient + ((way - dot(gradient, moved)) / square) * moved;
+    const double size = excess * law / way;
+    out.traction += size * direction;
+    if constexpr (!Sloped) return;
+    const double grows = r < softening.reach ? softening.scale * (1 - r / softening.reach) *
+                                                   weights.quadratic(to.n, to.t2()) / (r * r)
+                                             : 0.0;
+    const double slope = (rate.slope(r - largest) * law + excess * grows - size) / way;
+    out.slope.add_dyad(slope * direction - (size / r) * gradient, gradient);
+    out.slope.add_axial(to.n > 0 ? size / r : 0, weights.effective * size / r, normal);
   }
 
   /// Where the ratio of opening to sliding changes on the way, the mean stiffness misses the work of the

@@ -89,6 +89,16 @@ struct Softening {
   }
 };
 
+/// How much the traction grows with the opening rate (CohesiveLaw::rate_sensitivity), by what the effective
+/// opening grows in a step.
+struct RateFactor {
+  double sensitivity = 0;
+  double scale = 0;  ///< m a step at the reference rate
+
+  double excess(double growth) const { return sensitivity * std::log1p(growth / scale); }
+  double slope(double growth) const { return sensitivity / (scale + growth); }
+};
+
 /// Mean of <x> over the way from `a` to `b`, and its slope by `b`: (<b>^2 - <a>^2) / (2 (b - a)).
 struct PositiveMean {
   double value;

@@ -16,6 +16,9 @@ class UserPoints {
   /// A point that carries this at no opening; returns its place.
   Index add(Vec3 insertion_traction);
 
+  /// The point carries this at no opening after all.
+  void carry(Index place, Vec3 insertion_traction) { points_[place].insertion_traction = insertion_traction; }
+
   struct Question {
     Index place;
     Vec3 opening;  ///< m, at the step

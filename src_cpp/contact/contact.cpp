@@ -25,39 +25,6 @@ double bulk_modulus(const Material& material) {
   return std::visit(Visit{}, material.law);
 }
 
-Vec3 node_at(std::span<const double> position, Index node) {
-  return Vec3::load(&position[3 * static_cast<std::size_t>(node)]);
-}
-
-struct FacetShape {
-  double area = 0;
-  double volume = 0;  ///< of the cone to the origin `from`
-};
-FacetShape facet_shape(const FacetNodes& facet, std::span<const double> position, Vec3 from) {
-  Vec3 centre;
-  for (const Index node : facet.view()) centre += node_at(position, node);
-  centre *= 1.0 / facet.count;
-  Vec3 area;
-  double volume = 0;
-  for (Index i = 0; i < facet.count; ++i) {
-    const Vec3 a = node_at(position, facet.nodes[i]);
-    const Vec3 b = node_at(position, facet.nodes[(i + 1) % facet.count]);
-    const Vec3 twice = cross(a - centre, b - centre);
-    area += 0.5 * twice;
-    volume += dot(centre - from, twice) / 6;
-  }
-  return {norm(area), volume};
-}
-
-double element_volume(const Topology& topology, std::span<const double> position, Index element) {
-  const Vec3 from = node_at(position, topology.nodes(element)[0]);
-  double volume = 0;
-  for (Index f = 0; f < topology.facet_count(element); ++f) {
-    volume += facet_shape(topology.facet_nodes({element, f}), position, from).volume;
-  }
-  return volume;
-}
-
 }  // namespace
 
 struct Contact::Stages {
@@ -73,12 +40,8 @@ struct Contact::Stages {
     return {nodes.position, nodes.velocity, nodes.mass, nodes.body, {}};
   }
 
-  void add(FacetUse use, const Topology& topology, std::span<const double> reference) {
-    const FacetNodes facet = topology.facet_nodes(use);
-    const Index part = part_of_element[use.element];
-    const double volume = element_volume(topology, reference, use.element);
-    surface.add_segment({facet.nodes, use.element, part, bulk_modulus[part],
-                         facet_shape(facet, reference, Vec3{}).area, volume});
+  void add(std::span<const FacetUse> facets, const Topology& topology, std::span<const double> reference) {
+    surface.add_facets({topology, reference, part_of_element, bulk_modulus}, facets);
   }
 };
 
@@ -108,7 +71,7 @@ Contact::Contact(const Model& model, const Topology& topology)
     for (const FacetUse use : set->facets) {
       if (!seen.insert(Stages::key(use)).second) continue;
       if (topology.mate(use).element == kNone) {
-        s.add(use, topology, model.mesh.coordinates);
+        s.add({&use, 1}, topology, model.mesh.coordinates);
       } else {
         s.dormant.insert(Stages::key(use));
       }
@@ -118,19 +81,12 @@ Contact::Contact(const Model& model, const Topology& topology)
 Contact::~Contact() = default;
 
 void Contact::follow(const Insertion& insertion) {
-  SurfaceContact& surface = stages_->surface;
-  const Index bulk = static_cast<Index>(stages_->part_of_element.size());
-  for (const Insertion::Renumbered& r : insertion.renumbered) {
-    if (r.element < bulk) surface.rename(r.element, r.old_node, r.new_node);
-  }
-  for (const Insertion::NewNode& node : insertion.new_nodes) surface.split(node.mother, node.node);
+  stages_->surface.follow(insertion.new_nodes, insertion.renumbered);
 }
 
 void Contact::add_segments(std::span<const FacetUse> facets, const Topology& topology, const Nodes& nodes) {
-  for (const FacetUse use : facets) {
-    stages_->dormant.erase(Stages::key(use));
-    stages_->add(use, topology, nodes.reference);
-  }
+  for (const FacetUse use : facets) stages_->dormant.erase(Stages::key(use));
+  stages_->add(facets, topology, nodes.reference);
 }
 
 Contact::Search Contact::due(const Nodes& nodes, double step) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "contact/stages.hpp"
+#include "core/require.hpp"
 
 namespace cdfp {
 
@@ -123,6 +124,12 @@ void SurfaceContact::Stages::add_to_sums(const TouchingPair& pair) {
 
 void SurfaceContact::add_force(const Arrays& arrays, double step, int threads) {
   Stages& s = *stages_;
+  s.need_nodes(arrays.velocity, "velocity");
+  s.need_nodes(arrays.force, "force");
+  require(3 * arrays.mass.size() == arrays.velocity.size(),
+          "'mass' has " + std::to_string(arrays.mass.size()) + " numbers; give one for each of the " +
+              std::to_string(arrays.velocity.size() / 3) + " nodes that 'velocity' has");
+  require_positive(step, "the step");
   const double friction = s.settings.friction;
   for (BodyPair& bodies : s.body_pairs) bodies.stored = 0, bodies.force = {};
   if (friction > 0) {

@@ -1,115 +1,17 @@
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include "cdfp/contact.hpp"
 #include "cdfp/error.hpp"
-#include "contact/cell_table.hpp"
+#include "contact/box_levels.hpp"
+#include "contact/boxes.hpp"
+#include "contact/search_kernels.hpp"
 #include "core/parallel.hpp"
 
 namespace cdfp {
 
 namespace {
-
-using Corner = std::array<double, 3>;
-
-Corner place(const SurfaceView& surface, Index node) {
-  const double* x = &surface.position[3 * static_cast<std::size_t>(node)];
-  return {x[0], x[1], x[2]};
-}
-
-struct Box {
-  Corner low, high;
-  void include(const Corner& x) {
-    for (int d = 0; d < 3; ++d) {
-      low[d] = std::min(low[d], x[d]);
-      high[d] = std::max(high[d], x[d]);
-    }
-  }
-  void grow(double by) {
-    for (int d = 0; d < 3; ++d) low[d] -= by, high[d] += by;
-  }
-  /// Without branches: which side fails is as good as random.
-  bool holds(const Corner& x) const {
-    int inside = 1;
-    for (int d = 0; d < 3; ++d)
-      inside &= static_cast<int>(x[d] >= low[d]) & static_cast<int>(x[d] <= high[d]);
-    return inside != 0;
-  }
-  bool overlaps(const Box& other) const {
-    int apart = 0;
-    for (int d = 0; d < 3; ++d) {
-      apart |= static_cast<int>(low[d] > other.high[d]) | static_cast<int>(other.low[d] > high[d]);
-    }
-    return apart == 0;
-  }
-};
-
-const Index* corners_of(const SurfaceView& surface, Index segment) {
-  return &surface.segments[4 * static_cast<std::size_t>(segment)];
-}
-const Index* ends_of(const SurfaceView& surface, Index edge) {
-  return &surface.edges[2 * static_cast<std::size_t>(edge)];
-}
-
-Box box_of(const SurfaceView& surface, const Index* nodes, int count) {
-  const Corner x = place(surface, nodes[0]);
-  Box box{x, x};
-  for (int i = 1; i < count && nodes[i] != kNone; ++i) box.include(place(surface, nodes[i]));
-  return box;
-}
-
-/// Places in single precision, taken from a point that most of them lie near.
-struct Rough {
-  Double2 origin_xy{}, origin_z{};
-  Float4 operator()(Double2 xy, Double2 z) const {
-    typedef float Float2 __attribute__((vector_size(8)));
-    const auto flat = __builtin_convertvector(xy - origin_xy, Float2);
-    const auto high = __builtin_convertvector(z - origin_z, Float2);
-    return __builtin_shufflevector(flat, high, 0, 1, 2, 3);
-  }
-  Float4 operator()(const Corner& x) const { return (*this)(Double2{x[0], x[1]}, Double2{x[2], 0}); }
-  RoughBox operator()(const Box& box) const { return {(*this)(box.low), (*this)(box.high)}; }
-};
-
-/// Box of a segment, and sqrt of its area: half the cross product of a quadrilateral's diagonals.
-struct SegmentShape {
-  RoughBox box;
-  double length;
-};
-SegmentShape shape_of(const SurfaceView& surface, Index segment, const Rough& rough) {
-  const Index* corners = corners_of(surface, segment);
-  const double* x[4];
-  for (int i = 0; i < 4; ++i) {
-    x[i] = &surface.position[3 * static_cast<std::size_t>(corners[i] == kNone ? corners[0] : corners[i])];
-  }
-  Double2 low_xy{x[0][0], x[0][1]}, low_z{x[0][2], 0}, high_xy = low_xy, high_z = low_z;
-  for (int i = 1; i < 4; ++i) {
-    const Double2 xy{x[i][0], x[i][1]}, z{x[i][2], 0};
-    low_xy = lesser(xy, low_xy), high_xy = greater(xy, high_xy);
-    low_z = lesser(z, low_z), high_z = greater(z, high_z);
-  }
-  const double p0 = x[2][0] - x[0][0], p1 = x[2][1] - x[0][1], p2 = x[2][2] - x[0][2];
-  const double q0 = x[3][0] - x[1][0], q1 = x[3][1] - x[1][1], q2 = x[3][2] - x[1][2];
-  const double a = p1 * q2 - p2 * q1, b = p2 * q0 - p0 * q2, c = p0 * q1 - p1 * q0;
-  return {{rough(low_xy, low_z), rough(high_xy, high_z)}, std::sqrt(0.5 * std::sqrt(a * a + b * b + c * c))};
-}
-
-/// The middle of a few nodes: far outliers do not move it.
-Corner middle(const SurfaceView& surface) {
-  constexpr std::size_t kSamples = 63;
-  const std::size_t count = std::min(surface.nodes.size(), kSamples);
-  Corner center{};
-  if (count == 0) return center;
-  std::array<double, kSamples> sample{};
-  for (int d = 0; d < 3; ++d) {
-    for (std::size_t i = 0; i < count; ++i) {
-      sample[i] = place(surface, surface.nodes[i * surface.nodes.size() / count])[d];
-    }
-    std::nth_element(sample.begin(), sample.begin() + count / 2, sample.begin() + count);
-    center[d] = sample[count / 2];
-  }
-  return center;
-}
 
 /// Moves those that pass to the front and returns how many they are.
 template <class Test>
@@ -122,76 +24,12 @@ std::size_t keep(std::span<Index> ids, const Test& test) {
   return kept;
 }
 
-/// Larger on all sides by `by`, and enough for rounding.
-RoughBox grown(const RoughBox& box, float by) {
-  constexpr float kUlp = 1.2e-7F;
-  const auto size = [](Float4 x) { return greater(x, -x); };
-  return {box.low - by - kUlp * size(box.low), box.high + by + kUlp * size(box.high)};
-}
-
-/// Boxes in tables by size: level j holds those no longer than `base * 2^j` along any axis, each in the cell
-/// of its lowest corner, so a query needs to reach back by one cell only.
-class BoxLevels {
- public:
-  void reset(const RoughBox& space, double base) {
-    space_ = space, base_ = static_cast<float>(base);
-    levels_.clear();
-  }
-  void build(std::span<const RoughBox> boxes, bool open) {
-    std::vector<std::vector<Index>> by_level;
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      const std::size_t level = level_of(boxes[i]);
-      if (by_level.size() <= level) by_level.resize(level + 1);
-      by_level[level].push_back(static_cast<Index>(i));
-    }
-    for (const std::vector<Index>& ids : by_level) {
-      make_level(ids.size());
-      levels_.back().build(boxes, ids, open);
-    }
-  }
-  void insert(const RoughBox& box, Index id) {
-    const std::size_t level = level_of(box);
-    while (levels_.size() <= level) {
-      make_level(0);
-      levels_.back().build({}, {}, true);
-    }
-    levels_[level].insert(box, id);
-  }
-  /// `report(id)` at most once for a box, and for every one that overlaps `box`.
-  template <class Report>
-  void visit(const RoughBox& box, Report&& report) const {
-    float length = base_;
-    for (const CellTable<true>& level : levels_) {
-      if (level.size() > 0) level.visit(box.low - 1.0001F * length, box, report);
-      length *= 2;
-    }
-  }
-  std::size_t memory() const {
-    std::size_t bytes = 0;
-    for (const auto& level : levels_) bytes += level.memory();
-    return bytes;
-  }
-
- private:
-  std::size_t level_of(const RoughBox& box) const {
-    const Float4 size = box.high - box.low;
-    const float extent = std::max({size[0], size[1], size[2]});
-    std::size_t level = 0;
-    for (float length = base_; length < extent && level < 60; length *= 2) ++level;
-    return level;
-  }
-  void make_level(std::size_t boxes) {
-    const float length = std::ldexp(base_, static_cast<int>(levels_.size()));
-    levels_.emplace_back();
-    levels_.back().reset(space_, length, boxes);
-  }
-
-  RoughBox space_{};
-  float base_ = 1;
-  std::vector<CellTable<true>> levels_;
-};
-
 }  // namespace
+
+/// What is summed together: the same pieces for any number of threads.
+constexpr std::int64_t kPiece = 4096;
+/// Segments that one call pairs: what it found is still at hand when it is counted.
+constexpr std::int64_t kBatch = 512;
 
 struct ContactSearch::Cells {
   double cell_factor, buffer_factor;
@@ -201,6 +39,8 @@ struct ContactSearch::Cells {
   std::size_t entities_then = 0;
   Index nodes = 0, segments = 0, edges = 0;  // taken in so far
 
+  const SearchKernels& kernels = choose_search_kernels();
+  Corner origin{};
   Rough rough;
   CellTable<false> node_cells;
   BoxLevels segment_cells, edge_cells;
@@ -210,10 +50,10 @@ struct ContactSearch::Cells {
   std::vector<Index> row_of_node, corners_then, ends_then;
 
   std::vector<Float4> points;
-  std::vector<Index> all_rows;
-  std::vector<RoughBox> boxes, edge_boxes;
+  std::vector<Index> all_rows, names_in_cells;
+  std::vector<RoughBox> boxes, edge_boxes, spaces;
   std::vector<double> lengths;         // sums over pieces
-  std::vector<PairRows::Found> found;  // by piece
+  std::vector<PairRows::Found> found;  // by thread
 
   static bool may_pair(const SurfaceView& s, Index a, Index b) {
     return a != b && (s.groups.empty() || s.groups[a] < 0 || s.groups[a] != s.groups[b]);
@@ -257,6 +97,17 @@ struct ContactSearch::Cells {
     });
   }
 
+  /// `search(begin, end, found)` over the partners, a share for each thread.
+  template <class Search>
+  void search_shares(const Threads& threads, Index partners, Index rows, const Search& search) {
+    found.resize(threads.count());
+    threads.for_each(threads.count(), [&](std::int64_t t) {
+      const std::int64_t begin = partners * t / threads.count(), end = partners * (t + 1) / threads.count();
+      found[t].start(static_cast<Index>(begin), static_cast<Index>(end - begin), rows);
+      search(begin, end, found[t]);
+    });
+  }
+
   void regular(const SurfaceView& s, const Threads& threads);
   RoughBox place_nodes(const SurfaceView& s, const Threads& threads);
   void place_segments(const SurfaceView& s, const Threads& threads);
@@ -270,25 +121,21 @@ struct ContactSearch::Cells {
   }
 };
 
-/// What is paired or summed together: the same pieces for any number of threads.
-constexpr std::int64_t kPiece = 4096;
-
 RoughBox ContactSearch::Cells::place_nodes(const SurfaceView& s, const Threads& threads) {
-  const Corner origin = middle(s);
+  origin = middle(s);
   rough = {Double2{origin[0], origin[1]}, Double2{origin[2], 0}};
   points.resize(s.nodes.size());
-  threads.for_ranges(nodes, kPiece, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i) {
-      points[i] = rough(place(s, s.nodes[i]));
-    }
-  });
   all_rows.resize(points.size());
   std::iota(all_rows.begin(), all_rows.end(), 0);
+  spaces.resize((nodes + kPiece - 1) / kPiece);
+  threads.for_ranges(nodes, kPiece, [&](std::int64_t begin, std::int64_t end) {
+    spaces[begin / kPiece] =
+        kernels.place_nodes(s.nodes.data(), s.position.data(), origin.data(), begin, end, points.data());
+  });
   if (nodes == 0) return {Float4{}, Float4{}};
-  RoughBox space{points[0], points[0]};
-  for (const Float4 point : points) {
-    space.low = lesser(space.low, point);
-    space.high = greater(space.high, point);
+  RoughBox space = spaces[0];
+  for (const RoughBox& piece : spaces) {
+    space = {lesser(space.low, piece.low), greater(space.high, piece.high)};
   }
   return space;
 }
@@ -298,13 +145,8 @@ void ContactSearch::Cells::place_segments(const SurfaceView& s, const Threads& t
   boxes.resize(segments);
   lengths.assign((segments + kPiece - 1) / kPiece, 0);
   threads.for_ranges(segments, kPiece, [&](std::int64_t begin, std::int64_t end) {
-    double sum = 0;
-    for (std::int64_t m = begin; m < end; ++m) {
-      const SegmentShape shape = shape_of(s, static_cast<Index>(m), rough);
-      boxes[m] = shape.box;
-      sum += shape.length;
-    }
-    lengths[begin / kPiece] = sum;
+    lengths[begin / kPiece] =
+        kernels.place_segments(s.segments.data(), s.position.data(), origin.data(), begin, end, boxes.data());
   });
   double sum = 0;
   for (const double piece : lengths) sum += piece;
@@ -334,16 +176,29 @@ void ContactSearch::Cells::regular(const SurfaceView& s, const Threads& threads)
   node_cells.build(points, all_rows, open);
 
   const float grow = static_cast<float>(buffer * (1 + 1e-6));
-  found.resize(lengths.size());
-  threads.for_ranges(segments, kPiece, [&](std::int64_t begin, std::int64_t end) {
-    PairRows::Found& here = found[begin / kPiece];
-    here.reset(end - begin);
-    for (std::int64_t m = begin; m < end; ++m) {
-      boxes[m] = grown(boxes[m], grow);
-      nodes_in(s, static_cast<Index>(m), boxes[m], [&](std::span<const Index> rows) {
-        here.rows.insert(here.rows.end(), rows.begin(), rows.end());
-      });
-      here.end[m - begin] = here.rows.size();
+  names_in_cells.resize(points.size() + CellTable<false>::kSpare);
+  for (std::size_t i = 0; i < points.size(); ++i) names_in_cells[i] = s.nodes[node_cells.ids()[i]];
+  const NodePairs job{node_cells.layout(),
+                      node_cells.first(),
+                      node_cells.places(),
+                      node_cells.stride(),
+                      points.size(),
+                      node_cells.ids().data(),
+                      names_in_cells.data(),
+                      s.segments.data(),
+                      s.position.data(),
+                      s.groups.empty() ? nullptr : s.groups.data(),
+                      boxes.data(),
+                      grow,
+                      buffer};
+  search_shares(threads, segments, nodes, [&](std::int64_t begin, std::int64_t end, PairRows::Found& here) {
+    std::array<Index, kBatch> ends;
+    for (std::int64_t m = begin; m < end;) {
+      FoundRows rows{here.room(), 0, here.room_size()};
+      const std::int64_t done = kernels.pair_nodes(job, m, std::min(end, m + kBatch), rows, ends.data());
+      here.took(rows.count, std::span(ends).first(done - m));
+      if (done < std::min(end, m + kBatch)) here.make_room();
+      m = done;
     }
   });
   node_segments.assign(nodes, found);
@@ -365,18 +220,15 @@ void ContactSearch::Cells::pair_edges(const SurfaceView& s, const RoughBox& spac
   });
   edge_cells.reset(space, 1.5 * length);
   edge_cells.build(edge_boxes, open);
-  found.resize((edges + kPiece - 1) / kPiece);
-  threads.for_ranges(edges, kPiece, [&](std::int64_t begin, std::int64_t end) {
-    PairRows::Found& here = found[begin / kPiece];
-    here.reset(end - begin);
+  search_shares(threads, edges, edges, [&](std::int64_t begin, std::int64_t end, PairRows::Found& here) {
     for (std::int64_t e = begin; e < end; ++e) {
       const auto edge = static_cast<Index>(e);
       edge_cells.visit(edge_boxes[e], [&](std::span<const Index> others) {
         for (const Index other : others) {
-          if (other < edge && edges_may_touch(s, other, edge)) here.rows.push_back(other);
+          if (other < edge && edges_may_touch(s, other, edge)) here.add(other);
         }
       });
-      here.end[e - begin] = here.rows.size();
+      here.end_partner();
     }
   });
   edge_edges.assign(edges, found);
@@ -522,9 +374,7 @@ std::span<const Index> ContactSearch::touched_edge_rows() const {
 std::size_t ContactSearch::memory() const {
   const Cells& c = *cells_;
   std::size_t pairs = 0;
-  for (const PairRows::Found& piece : c.found) {
-    pairs += piece.rows.capacity() * sizeof(Index) + piece.end.capacity() * sizeof(std::size_t);
-  }
+  for (const PairRows::Found& share : c.found) pairs += share.memory();
   return c.node_cells.memory() + c.segment_cells.memory() + c.edge_cells.memory() + c.node_segments.memory() +
          c.edge_edges.memory() + c.points.capacity() * sizeof(Float4) +
          (c.boxes.capacity() + c.edge_boxes.capacity()) * sizeof(RoughBox) + pairs +

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cdfp/error.hpp"
 #include "contact/stages.hpp"
 
 namespace cdfp {
@@ -237,6 +238,12 @@ void SurfaceContact::Stages::look_at_edge(const double* x, Index active) {
 
 void SurfaceContact::local_search(const Arrays& arrays, int threads) {
   Stages& s = *stages_;
+  s.need_nodes(arrays.position, "position");
+  if (s.surface.node_count() > s.searched_nodes || s.surface.segment_count() > s.searched_segments) {
+    throw Error(Status::bad_state,
+                "contact: the surface has grown since the last search; ask `due` in every step and make the "
+                "search that it names before the local one");
+  }
   const double* x = arrays.position.data();
 
   ++s.stamp;

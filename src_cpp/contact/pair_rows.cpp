@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "cdfp/contact.hpp"
+#include "cdfp/error.hpp"
+#include "core/parallel.hpp"
 
 namespace cdfp {
 
@@ -25,27 +29,52 @@ std::size_t PairRows::memory() const {
          added_.capacity() * sizeof(Added);
 }
 
-void PairRows::assign(Index rows, std::span<const Found> pieces) {
-  // start_[r + 1] is where row r goes on while it fills, and where it ends when it is full.
-  start_.assign(static_cast<std::size_t>(rows) + 2, 0);
-  Index* const start = start_.data();
+void PairRows::Found::start(Index first, Index partners, Index rows) {
+  first_ = first, partners_ = partners;
+  count_ = 0;
+  ends_.clear();
+  ends_.reserve(partners);
+  row_counts_.assign(rows, 0);
+}
+
+void PairRows::Found::took(std::size_t count, std::span<const Index> ends) {
+  for (const Index end : ends) ends_.push_back(static_cast<Index>(count_) + end);
+  for (const std::size_t end = count_ + count; count_ < end; ++count_) ++row_counts_[rows_[count_]];
+}
+
+/// As much as all partners will take if the rest are like those so far.
+void PairRows::Found::make_room() {
+  const double share = ends_.empty() ? 1 : static_cast<double>(ends_.size()) / partners_;
+  const auto expected = static_cast<std::size_t>(1.05 * static_cast<double>(count_) / std::max(share, 0.01));
+  rows_.resize(std::max(expected, rows_.size() + rows_.size() / 2 + 4096));
+}
+
+void PairRows::assign(Index rows, std::span<Found> shares) {
   std::size_t count = 0;
-  for (const Found& piece : pieces) {
-    for (const Index row : piece.rows) ++start[row + 2];
-    count += piece.rows.size();
+  for (const Found& share : shares) count += share.count_;
+  if (count > std::numeric_limits<Index>::max()) {
+    throw Error(Status::bad_argument,
+                "contact search: " + std::to_string(count) +
+                    " pairs are more than 32 bits count; make the buffer factor smaller");
   }
-  for (Index r = 0; r < rows; ++r) start[r + 2] += start[r + 1];
+  start_.resize(static_cast<std::size_t>(rows) + 1);
+  Index at = 0;
+  for (Index r = 0; r < rows; ++r) {
+    start_[r] = at;
+    for (Found& share : shares) at += std::exchange(share.row_counts_[r], at);
+  }
+  start_[rows] = at;
   partners_.resize(count);
-  Index* const partners = partners_.data();
-  Index partner = 0;
-  for (const Found& piece : pieces) {
-    std::size_t i = 0;
-    for (const std::size_t end : piece.end) {
-      for (; i < end; ++i) partners[start[piece.rows[i] + 1]++] = partner;
+  Threads(static_cast<int>(shares.size())).for_each(std::ssize(shares), [&](std::int64_t t) {
+    Found& share = shares[t];
+    const Index* row = share.rows_.data();
+    Index* const next = share.row_counts_.data();
+    Index partner = share.first_;
+    for (const Index end : share.ends_) {
+      for (; row < share.rows_.data() + end; ++row) partners_[next[*row]++] = partner;
       ++partner;
     }
-  }
-  start_.pop_back();
+  });
   head_.assign(rows, kNone);
   added_.clear();
 }

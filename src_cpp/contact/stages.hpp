@@ -115,6 +115,7 @@ struct SurfaceContact::Stages {
   std::vector<BodyPair> body_pairs;
   std::vector<std::string> part_names;
 
+  void need_nodes(std::span<const double> vectors, const char* name) const;
   void grow_to_surface();
   void activate_node(const double* x, Index row);
   void activate_edge(Index edge);

@@ -14,6 +14,7 @@ Index Surface::row_for(Index node) {
   if (row_of_node_[node] == kNone) {
     row_of_node_[node] = node_count();
     nodes_.push_back(node);
+    node_limit_ = std::max(node_limit_, node + 1);
     node_stiffness_.push_back(0);
     incident_.push_back(kNone);
   }

@@ -31,6 +31,8 @@ class Surface {
   Index edge_count() const { return static_cast<Index>(edge_data_.size()); }
   Index node_count() const { return static_cast<Index>(nodes_.size()); }
 
+  /// More than the largest number of a contact node.
+  Index node_limit() const { return node_limit_; }
   const std::vector<Index>& nodes() const { return nodes_; }
   const std::vector<Index>& segments() const { return segments_; }
   const std::vector<Index>& edges() const { return edges_; }
@@ -71,6 +73,7 @@ class Surface {
   void add_edge_between(Index segment, Index other);
 
   double penalty_factor_;
+  Index node_limit_ = 0;
   std::vector<Index> nodes_, segments_, edges_;
   std::vector<SegmentData> data_;
   std::vector<EdgeData> edge_data_;

@@ -2,14 +2,13 @@
 #include <cmath>
 #include <cstdio>
 
-#include "cdfp/error.hpp"
 #include "contact/stages.hpp"
+#include "core/require.hpp"
 
 namespace cdfp {
 
 namespace {
 
-constexpr double kWarnShare = 0.1;
 constexpr std::int64_t kSpeedGrain = 4096;
 
 }  // namespace
@@ -53,9 +52,10 @@ void SurfaceContact::Stages::activate_edge(Index edge) {
 
 SurfaceContact::SurfaceContact(const ContactSettings& settings) {
   if (!(settings.penalty_factor > 0) || !(settings.friction >= 0) || !(settings.depth_limit > 0) ||
-      !(settings.depth_limit <= 1)) {
+      !(settings.depth_limit <= 1) || !(settings.penetration_warning > 0)) {
     throw Error(Status::bad_argument,
-                "contact: penalty_factor must be positive, friction not negative, depth_limit in (0, 1]");
+                "contact: penalty_factor and penetration_warning must be positive, friction not negative, "
+                "depth_limit in (0, 1]");
   }
   stages_ = std::make_unique<Stages>(settings);
 }
@@ -68,11 +68,16 @@ Index SurfaceContact::add_segment(const Segment& segment) {
 }
 
 void SurfaceContact::rename(Index element, Index old_node, Index new_node) {
+  require(element >= 0 && old_node >= 0 && new_node >= 0,
+          "element " + std::to_string(element) + " is to name node " + std::to_string(new_node) + " for " +
+              std::to_string(old_node) + "; numbers count from 0");
   stages_->surface.rename(element, old_node, new_node);
 }
 
 void SurfaceContact::split(Index mother, Index copy) {
   Stages& s = *stages_;
+  require(mother >= 0 && copy >= 0, "node " + std::to_string(copy) + " is said to be a copy of node " +
+                                        std::to_string(mother) + "; nodes count from 0");
   const Index from = s.surface.row(mother), to = s.surface.row(copy);
   if (from == kNone || to == kNone || from >= static_cast<Index>(s.holds.size())) return;
   if (s.holds.size() <= static_cast<std::size_t>(to)) s.holds.resize(to + 1);
@@ -86,6 +91,7 @@ void SurfaceContact::split(Index mother, Index copy) {
 
 SurfaceContact::Search SurfaceContact::due(const Arrays& arrays, double step, int threads) {
   Stages& s = *stages_;
+  s.need_nodes(arrays.velocity, "velocity");
   const std::vector<Index>& nodes = s.surface.nodes();
   const std::int64_t count = static_cast<std::int64_t>(nodes.size());
   s.piece_speed.assign((count + kSpeedGrain - 1) / kSpeedGrain, 0);
@@ -109,6 +115,7 @@ SurfaceContact::Search SurfaceContact::due(const Arrays& arrays, double step, in
 
 void SurfaceContact::regular_search(const Arrays& arrays, int threads) {
   Stages& s = *stages_;
+  s.need_nodes(arrays.position, "position");
   s.search.regular(s.view(arrays), threads);
   s.grow_to_surface();
   std::fill(s.has_pairs.begin(), s.has_pairs.end(), 0);
@@ -130,6 +137,7 @@ void SurfaceContact::regular_search(const Arrays& arrays, int threads) {
 
 void SurfaceContact::adaptive_search(const Arrays& arrays) {
   Stages& s = *stages_;
+  s.need_nodes(arrays.position, "position");
   s.search.adaptive(
       s.view(arrays), s.surface.renamed_segments(),
       s.settings.edge_edge ? std::span<const Index>(s.surface.renamed_edges()) : std::span<const Index>());
@@ -138,6 +146,20 @@ void SurfaceContact::adaptive_search(const Arrays& arrays) {
   for (const Index edge : s.search.touched_edge_rows()) s.activate_edge(edge);
   s.hits.resize(s.active_nodes.size());
   s.edge_hits.resize(s.active_edges.size());
+}
+
+void SurfaceContact::Stages::need_nodes(std::span<const double> vectors, const char* name) const {
+  require(vectors.size() % 3 == 0 && vectors.size() / 3 >= static_cast<std::size_t>(surface.node_limit()),
+          std::string("'") + name + "' is of " + std::to_string(vectors.size() / 3) +
+              " nodes, but contact segments name node " + std::to_string(surface.node_limit() - 1) +
+              "; give arrays of all nodes");
+}
+
+std::span<const Index> SurfaceContact::nodes() const {
+  return stages_->surface.nodes();
+}
+std::span<const Index> SurfaceContact::segments() const {
+  return stages_->surface.segments();
 }
 
 Index SurfaceContact::segment_count() const {
@@ -198,7 +220,7 @@ void SurfaceContact::name_parts(std::vector<std::string> names) {
 
 std::vector<std::string> SurfaceContact::warnings() const {
   const Stages::Deepest& worst = stages_->worst;
-  if (worst.share <= kWarnShare) return {};
+  if (worst.share <= stages_->settings.penetration_warning) return {};
   const auto of_part = [&](Index part) {
     const bool named = part >= 0 && part < static_cast<Index>(stages_->part_names.size());
     return named ? " of part " + stages_->part_names[part] : std::string();
@@ -210,7 +232,9 @@ std::vector<std::string> SurfaceContact::warnings() const {
   std::snprintf(share, sizeof share, ", %.0f %% of that element's height; ", 100 * worst.share);
   return {(worst.edges ? "contact: an edge at node " : "contact: node ") + std::to_string(worst.node) +
           of_part(worst.parts[0]) + depth + of_part(worst.parts[1]) + share +
-          "raise contact.penalty_factor or take smaller steps"};
+          "raise contact.penalty_factor or take smaller steps (contact.penetration_warning sets from which "
+          "share on "
+          "this is said)"};
 }
 
 std::size_t SurfaceContact::memory() const {

@@ -200,6 +200,9 @@ void read_cohesive_laws(TomlTable& top, Model& model) {
     t.read("weibull_modulus", law.weibull_modulus, kPositive);
     t.read("weibull_area", law.weibull_area, kPositive);
     t.read("seed", law.seed);
+    t.read("rate_sensitivity", law.rate_sensitivity, kPositive);
+    if (law.rate_sensitivity > 0) t.require("reference_rate");
+    t.read("reference_rate", law.reference_rate, kPositive);
     t.finish();
     model.cohesive_laws.push_back(std::move(law));
   }
@@ -346,6 +349,7 @@ void read_contact(TomlTable& top, Model& model) {
   t->read("penalty_factor", c.penalty_factor, kPositive);
   t->read("friction", c.friction, kNotNegative);
   t->read("depth_limit", c.depth_limit, kPositive);
+  t->read("penetration_warning", c.penetration_warning, kPositive);
   t->read("edge_edge", c.edge_edge);
   t->read("adaptive", c.adaptive);
   t->finish();

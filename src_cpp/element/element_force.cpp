@@ -1,6 +1,7 @@
 #include "element/element_force.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -16,11 +17,19 @@ struct ElementForce::Blocks : ElementBlocks {
 
   void run(const Task& task, std::span<const double> position, std::span<double> force);
   void list_critical();
+  /// Place of a critical element in the list of them.
+  Index place_of_critical(Index element) const {
+    const auto word = static_cast<std::size_t>(element) / 64;
+    const std::uint64_t before = critical_set[word] & ((std::uint64_t{1} << (element % 64)) - 1);
+    return critical_before[word] + static_cast<Index>(std::popcount(before));
+  }
 
   std::vector<StepConstants> steps;         ///< one a group
   std::vector<std::uint64_t> critical_now;  ///< one a block, bit l: element l of the block
   std::vector<std::uint64_t> critical_set;  ///< one bit an element; empty if no part cracks
+  std::vector<Index> critical_before;       ///< in words before each
   std::vector<Index> critical;
+  std::vector<Mat3> critical_stress;
   std::vector<Index> deleted;  ///< by the last step of users' laws
 
   void remove(BlockGroup& group, std::size_t slot);
@@ -30,6 +39,7 @@ ElementForce::Blocks::Blocks(const Model& model)
     : ElementBlocks(model), steps(groups.size()), critical_now(block_count, 0) {
   if (std::any_of(groups.begin(), groups.end(), [](const BlockGroup& g) { return g.plan.cracks; })) {
     critical_set.assign((places.size() + 63) / 64, 0);
+    critical_before.assign(critical_set.size(), 0);
   }
 }
 
@@ -58,6 +68,7 @@ void ElementForce::Blocks::remove(BlockGroup& group, std::size_t slot) {
 /// Through a set of bits, so that any number of elements comes out ascending in linear time.
 void ElementForce::Blocks::list_critical() {
   critical.clear();
+  std::fill(critical_set.begin(), critical_set.end(), 0);
   for (const BlockGroup& group : groups) {
     if (!group.plan.cracks) continue;
     for (std::size_t block = 0; block < group.blocks(); ++block) {
@@ -68,10 +79,10 @@ void ElementForce::Blocks::list_critical() {
     }
   }
   for (std::size_t word = 0; word < critical_set.size(); ++word) {
+    critical_before[word] = static_cast<Index>(critical.size());
     for (std::uint64_t bits = critical_set[word]; bits; bits &= bits - 1) {
       critical.push_back(static_cast<Index>(64 * word) + std::countr_zero(bits));
     }
-    critical_set[word] = 0;
   }
 }
 
@@ -154,6 +165,34 @@ void ElementForce::add_force(std::span<const double> position, std::span<double>
 
 std::span<const Index> ElementForce::critical_elements() const {
   return blocks_->critical;
+}
+
+std::span<const Mat3> ElementForce::critical_stresses(std::span<const double> position,
+                                                      const Threads& threads) {
+  Blocks& b = *blocks_;
+  b.critical_stress.resize(b.critical.size());
+  if (b.critical.empty()) return {};
+  for (const BlockGroup& group : b.groups) {
+    if (!group.plan.cracks) continue;
+    threads.for_ranges(
+        static_cast<std::int64_t>(group.blocks()), 8, [&](std::int64_t begin, std::int64_t end) {
+          std::array<Lanes, 6 * kRows> stress;
+          for (auto block = static_cast<std::size_t>(begin); block < static_cast<std::size_t>(end); ++block) {
+            const std::uint64_t elements = b.critical_now[group.first_block + block];
+            if (elements == 0) continue;
+            group.kernel->stress(group.input(block, position), elements, stress.data());
+            for (std::uint64_t bits = elements; bits; bits &= bits - 1) {
+              const auto slot = static_cast<std::size_t>(std::countr_zero(bits));
+              const auto s = [&](std::size_t k) {
+                return stress[6 * (slot / kLanes) + k].value[slot % kLanes];
+              };
+              b.critical_stress[b.place_of_critical(group.elements[block * kBlock + slot])] = {
+                  {Vec3{s(0), s(3), s(5)}, Vec3{s(3), s(1), s(4)}, Vec3{s(5), s(4), s(2)}}};
+            }
+          }
+        });
+  }
+  return b.critical_stress;
 }
 
 void ElementForce::set_least_strength(Index part, double strength) {

@@ -62,6 +62,9 @@ class ElementForce {
   /// whose traction is the mean of two elements' can only open if one of them is listed.
   std::span<const Index> critical_elements() const;
 
+  /// Mean Cauchy stress of each of them at `position`, Pa, with the material state as it is.
+  std::span<const Mat3> critical_stresses(std::span<const double> position, const Threads& threads);
+
   /// Lists elements of a cracking part from this strength on (Pa) instead of its law's, where facets are
   /// weaker or stronger than that.
   void set_least_strength(Index part, double strength);

@@ -39,6 +39,9 @@ struct BlockKernel {
   /// Bounds of omega^2 as deformed now, 1/s2, one a lane; `terms`: [row][the four StepTerms]
   /// [lane]. `omega_squared`: aligned as Lanes.
   void (*step_bound)(const BlockInput& block, const Lanes* terms, double* omega_squared) = nullptr;
+  /// Mean Cauchy stress, Pa, of the elements whose bits are set (and of some beside them):
+  /// [row][xx yy zz xy yz xz][lane].
+  void (*stress)(const BlockInput& block, std::uint64_t elements, Lanes* stress) = nullptr;
 
   // Of stored kinds. `frames`: [row][3 x 3][lane], rows are the elements' axes; `points`: one an integration
   // point.
@@ -61,8 +64,7 @@ extern const Kernels kKernelsAvx2;
 extern const Kernels kKernelsAvx512;
 #endif
 
-/// The best set that this processor runs. The environment variable CDFP_ISA (baseline, avx2 or avx512) may
-/// name a lesser one; throws `Error(bad_argument)` for another word or a set that the processor lacks.
+/// Those of `choose_instruction_set`.
 const Kernels& choose_kernels();
 
 }  // namespace cdfp

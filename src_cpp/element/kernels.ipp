@@ -287,9 +287,37 @@ void take_stress(const BlockInput& block, const Lanes* frames, const UserPointAr
 }
 
 template <class Formulation, class Law>
+void stress(const BlockInput& block, std::uint64_t elements, Lanes* mean) {
+  const PartConstants part = *block.part;
+  const auto* block_state = reinterpret_cast<const double*>(block.state);
+  for (int first = 0; first < block.count; first += kWidth) {
+    if ((elements >> first & (~std::uint64_t{0} >> (64 - kWidth))) == 0) continue;
+    const PackOfBlock<Formulation, Law> pack(block, first);
+    Pack x[Formulation::kCorners][3], sum[3][3];
+    pack.gather(block.position, x);
+    const Pack volume =
+        Formulation::kirchhoff_stress(pack.constants, x, sum, [&](const Symmetric<Pack>& strain, int point) {
+          return Law::stress(part.material, strain, pack.point(block_state, point));
+        });
+    double* out = &mean[6 * (first / kLanes)].value[first % kLanes];
+    for (int i = 0; i < 3; ++i) {
+      store(out + i * kLanes, sum[i][i] / volume);
+      store(out + (3 + i) * kLanes, sum[i == 2 ? 0 : i][i == 0 ? 1 : 2] / volume);
+    }
+  }
+}
+
+template <class Formulation, class Law>
 constexpr BlockKernel kernel() {
-  return {Formulation::kCorners,        Formulation::kConstants,   Formulation::kPoints * Law::kState,
-          &add_force<Formulation, Law>, &energy<Formulation, Law>, &step_bound<Formulation, Law>};
+  BlockKernel k;
+  k.corners = Formulation::kCorners;
+  k.constants = Formulation::kConstants;
+  k.state = Formulation::kPoints * Law::kState;
+  k.add_force = &add_force<Formulation, Law>;
+  k.energy = &energy<Formulation, Law>;
+  k.step_bound = &step_bound<Formulation, Law>;
+  k.stress = &stress<Formulation, Law>;
+  return k;
 }
 
 template <class Formulation>

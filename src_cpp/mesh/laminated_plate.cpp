@@ -135,6 +135,8 @@ Mesh laminated_plate_mesh(const LaminatedPlate& plate) {
 
   mesh.node_sets.push_back(nodes_on_plane(mesh, "symmetry_x", 0));
   mesh.node_sets.push_back(nodes_on_plane(mesh, "symmetry_y", 1));
+  mesh.coordinates.shrink_to_fit();
+  mesh.connectivity.shrink_to_fit();
   return mesh;
 }
 

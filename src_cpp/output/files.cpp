@@ -8,11 +8,15 @@
 namespace cdfp {
 namespace {
 
-void write_stream(const std::filesystem::path& path, const char* mode, std::string_view content) {
+void write_stream(const std::filesystem::path& path, const char* mode,
+                  std::span<const std::string_view> pieces) {
   std::FILE* stream = std::fopen(path.c_str(), mode);
   if (!stream) throw write_error(path);
   std::setvbuf(stream, nullptr, _IONBF, 0);
-  const bool written = std::fwrite(content.data(), 1, content.size(), stream) == content.size();
+  bool written = true;
+  for (const std::string_view piece : pieces) {
+    written = written && std::fwrite(piece.data(), 1, piece.size(), stream) == piece.size();
+  }
   const int reason = errno;
   const bool closed = std::fclose(stream) == 0;
   if (!written) errno = reason;
@@ -37,13 +41,17 @@ void move_into_place(const std::filesystem::path& temporary, const std::filesyst
 }
 
 void write_whole_file(const std::filesystem::path& path, std::string_view content) {
+  write_whole_file(path, std::span(&content, 1));
+}
+
+void write_whole_file(const std::filesystem::path& path, std::span<const std::string_view> pieces) {
   const std::filesystem::path temporary = temporary_beside(path);
-  write_stream(temporary, "wb", content);
+  write_stream(temporary, "wb", pieces);
   move_into_place(temporary, path);
 }
 
 void append_to_file(const std::filesystem::path& path, std::string_view lines) {
-  write_stream(path, "ab", lines);
+  write_stream(path, "ab", std::span(&lines, 1));
 }
 
 void make_folder(const std::filesystem::path& folder) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,7 @@ std::filesystem::path temporary_beside(const std::filesystem::path& path);
 void move_into_place(const std::filesystem::path& temporary, const std::filesystem::path& path);
 
 void write_whole_file(const std::filesystem::path& path, std::string_view content);
+void write_whole_file(const std::filesystem::path& path, std::span<const std::string_view> pieces);
 
 /// Appends whole lines with one write.
 void append_to_file(const std::filesystem::path& path, std::string_view lines);

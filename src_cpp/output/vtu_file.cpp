@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <string_view>
 #include <vector>
 
@@ -19,17 +20,12 @@ constexpr std::size_t block_bytes = 1 << 18;
 // Coordinates and velocities hardly shrink further at higher levels.
 constexpr int compression_level = 4;
 
-void append_number(std::string& out, std::uint64_t value) {
-  out.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
 /// [blocks][bytes a block][bytes of a shorter last block or 0][compressed bytes of each], then the blocks.
-void append_compressed(std::string& out, const unsigned char* data, std::size_t bytes) {
+std::string compressed(const unsigned char* data, std::size_t bytes) {
   const std::size_t blocks = (bytes + block_bytes - 1) / block_bytes;
-  append_number(out, blocks);
-  append_number(out, block_bytes);
-  append_number(out, bytes % block_bytes);
-  std::string packed;
+  std::vector<std::uint64_t> head{blocks, block_bytes, bytes % block_bytes};
+  head.resize(head.size() + blocks);
+  std::string packed(head.size() * sizeof(std::uint64_t), 0);
   std::vector<unsigned char> room(compressBound(block_bytes));
   for (std::size_t block = 0; block < blocks; ++block) {
     const std::size_t begin = block * block_bytes;
@@ -37,10 +33,11 @@ void append_compressed(std::string& out, const unsigned char* data, std::size_t 
     const uLong length = std::min(block_bytes, bytes - begin);
     if (compress2(room.data(), &size, data + begin, length, compression_level) != Z_OK)
       throw Error(Status::internal, "zlib could not compress a block of a snapshot");
-    append_number(out, size);
+    head[3 + block] = size;
     packed.append(reinterpret_cast<const char*>(room.data()), size);
   }
-  out += packed;
+  std::memcpy(packed.data(), head.data(), head.size() * sizeof(std::uint64_t));
+  return packed;
 }
 
 }  // namespace
@@ -52,8 +49,9 @@ std::string VtuFile::add(const char* type, const std::string& name, int componen
                          std::size_t bytes) {
   std::string element = std::string("        <DataArray type=\"") + type + "\" Name=\"" + name +
                         "\" NumberOfComponents=\"" + std::to_string(components) +
-                        "\" format=\"appended\" offset=\"" + std::to_string(appended_.size()) + "\"/>\n";
-  append_compressed(appended_, static_cast<const unsigned char*>(data), bytes);
+                        "\" format=\"appended\" offset=\"" + std::to_string(appended_bytes_) + "\"/>\n";
+  appended_.push_back(compressed(static_cast<const unsigned char*>(data), bytes));
+  appended_bytes_ += appended_.back().size();
   return element;
 }
 
@@ -103,9 +101,11 @@ void VtuFile::write(const std::filesystem::path& path) const {
   text +=
       "    </Piece>\n  </UnstructuredGrid>\n"
       "  <AppendedData encoding=\"raw\">\n_";
-  text += appended_;
-  text += "\n  </AppendedData>\n</VTKFile>\n";
-  write_whole_file(path, text);
+  const std::string end = "\n  </AppendedData>\n</VTKFile>\n";
+  std::vector<std::string_view> pieces{text};
+  pieces.insert(pieces.end(), appended_.begin(), appended_.end());
+  pieces.push_back(end);
+  write_whole_file(path, pieces);
 }
 
 }  // namespace cdfp

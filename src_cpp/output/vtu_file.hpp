@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "cdfp/types.hpp"
 
@@ -31,7 +32,8 @@ class VtuFile {
   std::size_t point_count_, cell_count_;
   double time_;
   std::string points_, cells_, point_data_, cell_data_;
-  std::string appended_;
+  std::vector<std::string> appended_;  // array after array
+  std::size_t appended_bytes_ = 0;
 };
 
 }  // namespace cdfp

@@ -4,29 +4,13 @@
 #include <string>
 #include <variant>
 
-#include "cdfp/error.hpp"
+#include "cohesive/check_law.hpp"
+#include "core/require.hpp"
 #include "scene/scene.hpp"
 
 namespace cdfp {
 
 namespace {
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(Status::bad_argument, message);
-}
-
-void require(bool holds, const std::string& message) {
-  if (!holds) refuse(message);
-}
-
-void require_positive(double value, const std::string& what) {
-  require(std::isfinite(value) && value > 0, what + " is " + std::to_string(value) + "; it must be positive");
-}
-
-void require_not_negative(double value, const std::string& what) {
-  require(std::isfinite(value) && value >= 0,
-          what + " is " + std::to_string(value) + "; it must not be negative");
-}
 
 void require_finite(const std::array<double, 3>& value, const std::string& what) {
   for (const double v : value) require(std::isfinite(v), what + " is not a finite number");
@@ -91,43 +75,6 @@ void check_material(const Material& m) {
         }
       },
       m.law);
-}
-
-void check_law(const CohesiveLaw& law) {
-  const std::string where = "cohesive law '" + law.name + "'";
-  require_positive(law.strength, where + ": strength");
-  require_positive(law.fracture_energy, where + ": fracture_energy");
-  require_positive(law.mode_ratio, where + ": mode_ratio");
-  require_positive(law.shear_ratio, where + ": shear_ratio");
-  require_not_negative(law.friction, where + ": friction");
-  require_positive(law.friction_exponent, where + ": friction_exponent");
-  require_not_negative(law.internal_friction, where + ": internal_friction");
-  require_not_negative(law.weibull_modulus, where + ": weibull_modulus");
-  require_not_negative(law.weibull_area, where + ": weibull_area");
-  require(law.weibull_area == 0 || law.weibull_modulus > 0,
-          where + ": weibull_area means nothing without scatter; give weibull_modulus or leave it out");
-  const bool user = law.kind == CohesiveKind::user;
-  const bool bilinear = law.kind == CohesiveKind::bilinear;
-  require(
-      law.kind != CohesiveKind::camacho_ortiz || law.mode_ratio == 1,
-      where + ": camacho_ortiz has a potential for mode_ratio 1 only; leave mode_ratio out or take linear");
-  if (user) require(law.callback != nullptr, where + ": a user law needs a callback");
-  require(user || (!law.callback && law.states == 0),
-          where + ": callback and states are of user laws only; set its kind to user");
-  require(law.states >= 0, where + ": states must not be negative");
-  if (bilinear) {
-    require_positive(law.stiffness, where + ": stiffness");
-    const double least = law.strength * law.strength / (2 * law.fracture_energy);
-    require(law.stiffness > least,
-            where + ": stiffness is " + std::to_string(law.stiffness) + " Pa/m; above " +
-                std::to_string(least) +
-                " (strength^2 / 2 fracture_energy) the bond softens after its strength");
-  } else {
-    require_not_negative(law.stiffness, where + ": stiffness");
-    require(
-        user || law.stiffness == 0,
-        where + ": stiffness is of bilinear and user laws only; an extrinsic law is rigid until it opens");
-  }
 }
 
 void check_bonds(const Model& model) {
@@ -242,6 +189,7 @@ void check_settings(const Model& model) {
   require_positive(c.buffer_factor, "contact: buffer_factor");
   require_positive(c.penalty_factor, "contact: penalty_factor");
   require_positive(c.depth_limit, "contact: depth_limit");
+  require_positive(c.penetration_warning, "contact: penetration_warning");
   require(c.friction >= 0, "contact: friction must not be negative");
   require_positive(model.time.end, "time: end");
   require(model.time.fixed_step >= 0,

@@ -1,8 +1,10 @@
 /// The nodal state: the one owner of positions, velocities, forces and masses. It grows when nodes are split.
+/// Services work on views of it or of a caller's arrays.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cdfp/types.hpp"
@@ -44,6 +46,29 @@ struct Nodes {
     body.push_back(body[mother]);
     return count() - 1;
   }
+};
+
+/// Arrays of all nodes, wherever they are kept.
+struct NodeArrays {
+  std::span<const double> position;     ///< (n, 3)
+  std::span<const double> velocity;     ///< (n, 3)
+  std::span<const double> mass;         ///< (n)
+  std::span<double> force;              ///< (n, 3); empty where nothing adds to it
+  std::span<const std::uint8_t> fixed;  ///< (n)
+  std::span<const Index> body;          ///< (n); empty: no rigid bodies
+
+  NodeArrays() = default;
+  // NOLINTBEGIN(google-explicit-constructor,hicpp-explicit-conversions): nodes are node arrays
+  NodeArrays(const Nodes& n)
+      : position(n.position), velocity(n.velocity), mass(n.mass), fixed(n.fixed), body(n.body) {}
+  NodeArrays(Nodes& n) : NodeArrays(std::as_const(n)) { force = n.force; }
+  // NOLINTEND(google-explicit-constructor,hicpp-explicit-conversions)
+
+  Vec3 x(Index n) const { return Vec3::load(&position[3 * static_cast<std::size_t>(n)]); }
+  Vec3 v(Index n) const { return Vec3::load(&velocity[3 * static_cast<std::size_t>(n)]); }
+  Vec3 f(Index n) const { return Vec3::load(&force[3 * static_cast<std::size_t>(n)]); }
+  /// Bit d: direction d does not follow the node's force.
+  std::uint8_t held(Index n) const { return body.empty() || body[n] == kNone ? fixed[n] : 7; }
 };
 
 }  // namespace cdfp

@@ -129,12 +129,12 @@ TEST_F(Fields, PartsAndCohesiveLaws) {
     EXPECT_EQ(formulation, Formulation::full);
     EXPECT_EQ(hourglass, 0.5);
   }
-  const cdfp_cohesive_law given = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, CDFP_USER};
+  const cdfp_cohesive_law given = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 13, 11, CDFP_USER};
   ASSERT_EQ(cdfp_model_add_cohesive_law(handle_, "law", &given), CDFP_OK);
   {
     const auto& [name, strength, fracture_energy, mode_ratio, shear_ratio, friction, friction_exponent,
-                 internal_friction, kind, stiffness, weibull_modulus, weibull_area, seed, states, callback] =
-        model().cohesive_laws.at(0);
+                 internal_friction, kind, stiffness, weibull_modulus, weibull_area, seed, rate_sensitivity,
+                 reference_rate, states, callback] = model().cohesive_laws.at(0);
     EXPECT_EQ(kind, CohesiveKind::user);
     EXPECT_EQ((Vector{stiffness, weibull_modulus, weibull_area}), (Vector{8, 9, 10}));
     EXPECT_EQ(seed, 11);
@@ -144,6 +144,7 @@ TEST_F(Fields, PartsAndCohesiveLaws) {
     EXPECT_EQ((Vector{strength, fracture_energy, mode_ratio}), (Vector{1, 2, 3}));
     EXPECT_EQ((Vector{shear_ratio, friction, friction_exponent}), (Vector{4, 5, 6}));
     EXPECT_EQ(internal_friction, 7);
+    EXPECT_EQ((Vector{rate_sensitivity, reference_rate}), (Vector{12, 13}));
   }
   int asked = 0;
   const auto law = [](const cdfp_cohesive_points* points, void* user_data) {
@@ -223,7 +224,7 @@ TEST_F(Fields, Motion) {
 
 TEST_F(Fields, Settings) {
   const double g[] = {1, 2, 3};
-  const cdfp_contact_settings contact_given = {1, 2, 3, 4, 5, 0, 0};
+  const cdfp_contact_settings contact_given = {1, 2, 3, 4, 5, 6, 0, 0};
   cdfp_contact_settings back = {};
   ASSERT_EQ(cdfp_model_set_title(handle_, "title"), CDFP_OK);
   ASSERT_EQ(cdfp_model_set_gravity(handle_, g), CDFP_OK);
@@ -241,16 +242,17 @@ TEST_F(Fields, Settings) {
   ASSERT_EQ(cdfp_model_set_threads(handle_, 10), CDFP_OK);
 
   const auto& [title, mesh, materials, parts, laws, bonds, recovery, shares, bodies, planes, prescribed,
-               initial, gravity, contact, time, output, threads] = model();
+               initial, gravity, load, contact, time, output, threads] = model();
+  EXPECT_FALSE(load);
   EXPECT_EQ(title, "title");
   EXPECT_EQ(gravity, (Vector{1, 2, 3}));
   EXPECT_EQ(threads, 10);
   {
-    const auto& [surfaces, cell, buffer, penalty, friction, depth, edge_edge, adaptive] = contact;
+    const auto& [surfaces, cell, buffer, penalty, friction, depth, warning, edge_edge, adaptive] = contact;
     EXPECT_EQ(surfaces, std::vector<std::string>{"faces"});
     EXPECT_EQ((Vector{cell, buffer, penalty}), (Vector{1, 2, 3}));
     EXPECT_EQ(friction, 4);
-    EXPECT_EQ(depth, 5);
+    EXPECT_EQ((Vector{depth, warning}), (Vector{5, 6}));
     EXPECT_FALSE(edge_edge || adaptive);
   }
   {
@@ -304,7 +306,7 @@ void fill_scene(cdfp_model* model) {
   cdfp_model_add_contact_surface(model, "faces");
   cdfp_model_add_elastic_material(model, "soft", 1000, 1e6, 0.3);
   cdfp_model_add_rigid_material(model, "hard", 1000, 1e6, 0.3);
-  const cdfp_cohesive_law law = {1e9, 10, 1, 1, 0, 1, 0, 0, 0, 0, 0, CDFP_LINEAR};
+  const cdfp_cohesive_law law = {1e9, 10, 1, 1, 0, 1, 0, 0, 0, 0, 0, 0, 0, CDFP_LINEAR};
   cdfp_model_add_cohesive_law(model, "law", &law);
   cdfp_model_add_part(model, "cube", "soft", CDFP_ONE_POINT, 1, "law");
   cdfp_model_add_part(model, "hammer", "hard", CDFP_ONE_POINT, 1, nullptr);

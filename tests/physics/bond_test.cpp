@@ -116,6 +116,9 @@ TEST(Bond, RefusesWhatCannotBe) {
   model = bonded_bar();
   model.cohesive_laws[0].weibull_area = 1e-6;
   EXPECT_NE(refusal(model).find("weibull_area"), std::string::npos);
+  model = bonded_bar();
+  model.cohesive_laws[0].rate_sensitivity = 0.1;
+  EXPECT_NE(refusal(model).find("reference_rate"), std::string::npos);
 }
 
 /// Linear, but it breaks at a tenth of a micrometre.

@@ -102,12 +102,12 @@ std::vector<Index> critical(const Scene& scene) {
 /// The meshes' nodes stand still in these scenes, so that facets of copies lie where those of the mesh did.
 void compare_with_force(Scene& scene, std::size_t least_found) {
   Topology topology = scene.topology();
-  const Criterion criterion(scene.model);
+  Criterion criterion(scene.model);
   const auto stress = [&](Index e) { return scene.stress[e]; };
   std::vector<OpenFacet> open;
   std::size_t found = 0;
   for (int round = 0; round < 4; ++round) {
-    criterion.find(critical(scene), topology, scene.model.mesh.coordinates, stress, open);
+    criterion.find(critical(scene), {}, topology, scene.model.mesh.coordinates, stress, open);
     const std::vector<OpenFacet> expected = by_force(scene, topology);
     ASSERT_EQ(open.size(), expected.size());
     for (std::size_t i = 0; i < open.size(); ++i) {
@@ -206,7 +206,7 @@ TEST(Criterion, MirroredFacetsCarryTheSameTraction) {
     model.stress_recovery = recovery;
     std::vector<OpenFacet> open;
     Criterion(model).find(
-        body.all, body.topology, body.nodes.position, [&](Index e) { return body.stress(e); }, open);
+        body.all, {}, body.topology, body.nodes.position, [&](Index e) { return body.stress(e); }, open);
     ASSERT_GT(open.size(), 8u);
     const auto centre = [&](const OpenFacet& f) {
       Vec3 sum;

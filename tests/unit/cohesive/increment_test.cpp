@@ -14,6 +14,7 @@ namespace {
 constexpr double kStrength = 60e6;
 constexpr double kEnergy = 10;
 constexpr double kReach = 2 * kEnergy / kStrength;
+constexpr double kStep = 6e-8;
 constexpr double kContact = 1e4 * kStrength / kReach;  ///< Pa/m
 
 /// A point that goes from opening to opening, with the accounts that the zone keeps.
@@ -38,6 +39,7 @@ class Walker {
     i.r0 = std::min(largest_, weights_.opening(from.n, from.t2()));
     i.unloading = softening_.stiffness(largest_);
     i.contact = kContact;
+    i.rate = {law_.rate_sensitivity, kStep * law_.reference_rate};
     i.friction = law_.friction * friction_share(std::min(1.0, largest_ / kReach), law_.friction_exponent);
     i.area = 1;
     return i;
@@ -52,6 +54,7 @@ class Walker {
     heat += dot(closed_face, moved);
     growth_ += weighted_growth(weights_, normal_, at_, to, largest_, kReach);
     const Split split(to, normal_);
+    by_rate += i.rate_work(split, weights_.opening(split.n, split.t2()));
     largest_ = std::max(largest_, weights_.opening(split.n, split.t2()));
     at_ = to;
     slip_ = reaction.slip;
@@ -79,8 +82,9 @@ class Walker {
   bool broken() const { return largest_ >= kReach; }
   double largest() const { return largest_; }
 
-  double work = 0;  ///< J/m2, of the whole traction
-  double heat = 0;  ///< J/m2, work against contact and friction, `pressed` included
+  double work = 0;     ///< J/m2, of the whole traction
+  double heat = 0;     ///< J/m2, work against contact and friction, `pressed` included
+  double by_rate = 0;  ///< J/m2, of what the rate adds
 
  private:
   CohesiveLaw law_;
@@ -215,6 +219,73 @@ TEST(Increment, SlopeIsThatOfTheTraction) {
             << trial;
       }
     }
+  }
+}
+
+CohesiveLaw rate_dependent_law(double kappa, double eta) {
+  CohesiveLaw law = law_of(kappa, eta);
+  law.rate_sensitivity = 0.12;
+  law.reference_rate = 2e-3;
+  return law;
+}
+
+TEST(Rate, FactorsTheTractionAndTheEnergyAtAConstantRate) {
+  for (const double kappa : {0.2, 1.0, 5.0}) {
+    for (const double eta : {0.5, 1.0, 3.0}) {
+      for (const double rate : {1e-4, 2e-2, 1.0}) {
+        const CohesiveLaw law = rate_dependent_law(kappa, eta);
+        const double factor = 1 + 0.12 * std::log(1 + rate / 2e-3);
+        for (const bool sliding : {false, true}) {
+          Walker walker(law, kNormal);
+          const Vec3 way = (sliding ? kappa / eta * kReach : kReach) * (sliding ? kAlong : kNormal);
+          const double grown = kStep * rate;  // a step, of the effective opening
+          const int pieces = static_cast<int>(kReach / grown);
+          double first = 0;
+          for (int i = 1; i <= pieces; ++i) {
+            const Reaction r = walker.go((i * grown / kReach) * way);
+            if (i == 1) first = norm(r.traction);
+          }
+          const double peak = (sliding ? eta : 1) * kStrength * factor;
+          if (pieces > 50) {
+            EXPECT_NEAR(first, peak, 3 * peak / pieces) << kappa << eta << rate;
+          }
+          const double energy = (sliding ? kappa : 1) * kEnergy;
+          const double x = pieces * grown / kReach;
+          EXPECT_NEAR(walker.work - walker.stored(), energy * (x + (factor - 1) * (2 * x - x * x)),
+                      1e-6 * energy);
+          EXPECT_NEAR(walker.work, walker.fracture() + walker.by_rate + walker.stored(), 1e-8 * energy);
+        }
+      }
+    }
+  }
+}
+
+TEST(Rate, AnyPathDissipatesAtLeastWhatTheLawDoesAndNothingAtRest) {
+  const unsigned seed = 5;
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> pick(-1, 1);
+  for (int path = 0; path < 200; ++path) {
+    const double kappa = std::exp(1.6 * pick(random)), eta = std::exp(pick(random));
+    Walker walker(rate_dependent_law(kappa, eta), kNormal);
+    const double start = walker.stored();
+    for (int leg = 0; leg < 20 && !walker.broken(); ++leg) {
+      const double before = walker.work - walker.stored();
+      const double spent = walker.fracture() + walker.by_rate;
+      walker.go((0.05 * leg) * kReach *
+                ((0.6 + 0.5 * pick(random)) * kNormal + pick(random) * kAlong + pick(random) * kAcross));
+      EXPECT_GE(walker.by_rate, 0);
+      EXPECT_NEAR(walker.work - walker.stored() - before, walker.fracture() + walker.by_rate - spent,
+                  1e-7 * kEnergy * (1 + kappa));
+    }
+    EXPECT_GE(walker.by_rate, 0.1 * 0.12 * walker.fracture());
+    // Within what is open already, the rate changes nothing.
+    const double work = walker.work - walker.stored(), added = walker.by_rate;
+    walker.go(1e-3 * kReach * kNormal);
+    walker.go({});
+    EXPECT_EQ(walker.by_rate, added);
+    EXPECT_NEAR(walker.work - walker.stored(), work, 1e-9 * kEnergy);
+    EXPECT_GE(start, 0);
   }
 }
 

@@ -100,7 +100,7 @@ class SpringBody {
     for (Index e = 0; e < topology.bulk_count(); ++e) add_springs(e, nodes.force);
     if (!cracking.empty()) {
       criterion.find(
-          cracking, topology, nodes.position, [this](Index e) { return stress(e); }, open);
+          cracking, {}, topology, nodes.position, [this](Index e) { return stress(e); }, open);
       std::erase_if(open, [this](const OpenFacet& f) { return accept && !accept(f); });
       if (reversed) std::reverse(open.begin(), open.end());
       for (const OpenFacet& facet : open) insert(facet);

@@ -13,8 +13,8 @@ using cdfp::test::Block;
 using cdfp::test::Scene;
 
 /// A small cube stands on its tip over a wide block.
-Scene tip_on_block(double gap, double speed) {
-  Scene scene;
+Scene tip_on_block(double gap, double speed, const ContactSettings& settings = {}) {
+  Scene scene(settings);
   scene.add({.size = {2e-3, 1e-3, 0.5e-3}, .centre = {0, 0, -0.25e-3}, .held = true});
   const Mat3 on_tip = test::rotation({1, -1, 0}, std::acos(1 / std::sqrt(3.0)));
   const double tip = 0.5e-3 * std::sqrt(3.0);
@@ -83,6 +83,16 @@ TEST(Forces, DeepPenetrationIsReportedWithItsPair) {
   ASSERT_EQ(scene.contact.warnings().size(), 1u);
   for (const char* part : {"of part floor", "of part die"}) {
     EXPECT_NE(scene.contact.warnings()[0].find(part), std::string::npos) << scene.contact.warnings()[0];
+  }
+}
+
+TEST(Forces, WhatIsDeepIsTheUsersChoice) {
+  for (const double share : {0.1, 0.19, 0.21, 0.4}) {
+    ContactSettings settings;
+    settings.penetration_warning = share;
+    Scene scene = tip_on_block(-1e-4, 0, settings);  // a fifth of the block's 0.5 mm
+    scene.step(1e-9);
+    EXPECT_EQ(scene.contact.warnings().size(), share < 0.2 ? 1u : 0u) << share;
   }
 }
 

@@ -174,7 +174,8 @@ TEST(CaseReader, ReadsBondsScatterAndRecovery) {
       "[[bonds]]\nfacet_set = \"support_top\"\ncohesive_law = \"bond\"\n[contact]";
   std::string text = with("[contact]", bond);
   text.replace(text.find("mode_ratio = 5"), 14,
-               "kind = \"camacho_ortiz\"\nweibull_modulus = 7\nweibull_area = 1e-6\nseed = 3");
+               "kind = \"camacho_ortiz\"\nweibull_modulus = 7\nweibull_area = 1e-6\nseed = 3\n"
+               "rate_sensitivity = 0.05\nreference_rate = 1e-3");
   text.insert(0, "stress_recovery = \"nodal\"\n");
   const Model m = parse_case(text, "plate.toml");
   ASSERT_EQ(m.cohesive_laws.size(), 2u);
@@ -183,6 +184,8 @@ TEST(CaseReader, ReadsBondsScatterAndRecovery) {
   EXPECT_EQ(glass.weibull_modulus, 7);
   EXPECT_EQ(glass.weibull_area, 1e-6);
   EXPECT_EQ(glass.seed, 3);
+  EXPECT_EQ(glass.rate_sensitivity, 0.05);
+  EXPECT_EQ(glass.reference_rate, 1e-3);
   const CohesiveLaw& law = m.cohesive_laws[1 - glass_law_of(m)];
   EXPECT_EQ(law.kind, CohesiveKind::bilinear);
   EXPECT_EQ(law.stiffness, 1e13);
@@ -198,6 +201,7 @@ TEST(CaseReader, ReadsBondsScatterAndRecovery) {
                  "'parts' must name two parts");
   expect_refused(with("mode_ratio = 5", "kind = \"bilinear\""), "the key 'stiffness' is missing");
   expect_refused(with("mode_ratio = 5", "kind = \"linnear\""), "'linear'");
+  expect_refused(with("mode_ratio = 5", "rate_sensitivity = 0.05"), "the key 'reference_rate' is missing");
   expect_refused(with("gravity", "strength_shares = [1.0, 0.5]\ngravity"),
                  "'strength_shares' has 2 numbers; the mesh has 2358 elements");
 }

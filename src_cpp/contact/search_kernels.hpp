@@ -1,0 +1,57 @@
+/// The inner loops of the regular search, one set for each instruction set that the processor may have.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "cdfp/types.hpp"
+#include "contact/cell_layout.hpp"
+
+namespace cdfp {
+
+/// Points in cells, and the segments that look for them. Arrays of points may be read a few past their end.
+struct NodePairs {
+  CellLayout layout;
+  const std::uint32_t* first;   ///< points of slice s: [first[s], first[s + 1])
+  const std::uint16_t* places;  ///< steps along x, then y, then z
+  std::size_t stride;           ///< from x to y to z
+  std::size_t points;
+  const Index* rows;       ///< of the points
+  const Index* nodes;      ///< of the points
+  const Index* corners;    ///< (segments, 4)
+  const double* position;  ///< (all nodes, 3)
+  const Index* groups;     ///< of all nodes, or null
+  RoughBox* boxes;         ///< of segments; grown by the search
+  float grow;              ///< by at least the buffer
+  double buffer;
+};
+
+/// Rows that were found, for segment after segment.
+struct FoundRows {
+  Index* rows;
+  std::size_t count, room;
+};
+
+struct SearchKernels {
+  /// Places of nodes [begin, end) about `origin`, and the box that holds them; at least one.
+  RoughBox (*place_nodes)(const Index* nodes, const double* position, const double* origin,
+                          std::int64_t begin, std::int64_t end, Float4* places);
+  /// Boxes of segments [begin, end) about `origin`, and the sum of their mean lengths, sqrt(area).
+  double (*place_segments)(const Index* corners, const double* position, const double* origin,
+                           std::int64_t begin, std::int64_t end, RoughBox* boxes);
+  /// Segments from `begin` until `end` or until there is no more room, which is what it returns. `ends[i]`:
+  /// where the rows of the i-th of them end.
+  std::int64_t (*pair_nodes)(const NodePairs& job, std::int64_t begin, std::int64_t end, FoundRows& found,
+                             Index* ends);
+};
+
+extern const SearchKernels kSearchBaseline;
+#ifdef CDFP_HAS_X86_VARIANTS
+extern const SearchKernels kSearchAvx2;
+extern const SearchKernels kSearchAvx512;
+#endif
+
+/// Those of `choose_instruction_set`.
+const SearchKernels& choose_search_kernels();
+
+}  // namespace cdfp

@@ -1,0 +1,189 @@
+// The inner loops of the regular search, compiled once for each instruction set: the including file sets
+// CDFP_ISA and CDFP_SEARCH_KERNELS. What they call is inlined.
+#include <cmath>
+
+#include "contact/search_kernels.hpp"
+#include "contact/wide.hpp"
+
+namespace cdfp {
+
+namespace CDFP_ISA {
+
+/// What one segment looks for.
+struct Finder {
+  const NodePairs& job;
+  const Index* corners;
+  const RoughBox& box;
+  FoundRows& found;
+  Wide::Query query;
+  Wide::Corners own;
+  Wide::Query within;
+  bool has_within = false;
+
+  CDFP_ALWAYS_INLINE Finder(const NodePairs& pairs, const Index* of_segment, const RoughBox& grown, Int4 low,
+                            Int4 high, FoundRows& rows)
+      : job(pairs), corners(of_segment), box(grown), found(rows), query(low, high), own(of_segment) {}
+
+  CDFP_ALWAYS_INLINE bool same_group(Index node) const {
+    return job.groups[node] >= 0 && job.groups[node] == job.groups[corners[0]];
+  }
+  CDFP_ALWAYS_INLINE bool holds(Index node) const {
+    const double* x = job.position + 3 * static_cast<std::size_t>(node);
+    for (int d = 0; d < 3; ++d) {
+      double low = job.position[3 * static_cast<std::size_t>(corners[0]) + d], high = low;
+      for (int i = 1; i < 4 && corners[i] != kNone; ++i) {
+        const double c = job.position[3 * static_cast<std::size_t>(corners[i]) + d];
+        low = c < low ? c : low, high = c > high ? c : high;
+      }
+      if (x[d] < low - job.buffer || x[d] > high + job.buffer) return false;
+    }
+    return true;
+  }
+  /// One bit for each of the points from `at` that pair.
+  template <class Filter>
+  CDFP_ALWAYS_INLINE void scan(std::uint32_t at, std::uint32_t end, const Filter& filter) {
+    for (; at < end; at += Wide::kLanes) {
+      Wide::Bits bits = query.overlap(job.places + at, job.stride);
+      const std::uint32_t left = end - at;
+      if (left < Wide::kLanes) bits &= (Wide::Bits{1} << left) - 1;
+      if (bits == 0) continue;
+      bits &= ~own.among(job.nodes + at);
+      if (bits == 0) continue;
+      filter(at, bits);
+      doubt(at, bits);
+      if (found.room < found.count + Wide::kLanes) {
+        found.count = found.room + 1;
+        return;
+      }
+      Wide::pick(job.rows + at, bits, found.rows + found.count);
+      found.count += static_cast<std::size_t>(__builtin_popcount(bits));
+    }
+  }
+  CDFP_ALWAYS_INLINE void doubt(std::uint32_t at, Wide::Bits& bits) {
+    if (job.layout.tells() && !has_within) {
+      const Lattice::Range sure = job.layout.lattice().within(box);
+      within = Wide::Query(sure.low, sure.high);
+      has_within = true;
+    }
+    Wide::Bits doubtful = has_within ? bits & ~within.overlap(job.places + at, job.stride) : bits;
+    for (; doubtful != 0; doubtful &= doubtful - 1) {
+      if (!holds(job.nodes[at + __builtin_ctz(doubtful)])) bits &= ~(doubtful & -doubtful);
+    }
+    if (job.groups) {
+      for (Wide::Bits rest = bits; rest != 0; rest &= rest - 1) {
+        if (same_group(job.nodes[at + __builtin_ctz(rest)])) bits &= ~(rest & -rest);
+      }
+    }
+  }
+};
+
+std::int64_t pair_nodes(const NodePairs& pairs, std::int64_t begin, std::int64_t end, FoundRows& found_rows,
+                        Index* ends) {
+  // Copies, which nothing that is written can alias.
+  const NodePairs job = pairs;
+  FoundRows found = found_rows;
+  const auto any = [](std::uint32_t, Wide::Bits&) {};
+  for (std::int64_t m = begin; m < end; ++m) {
+    const std::size_t before = found.count;
+    const RoughBox box = grown(job.boxes[m], job.grow);
+    const Int4 low = job.layout.lattice()(box.low), high = job.layout.lattice()(box.high);
+    Finder finder(job, job.corners + 4 * m, box, low, high, found);
+    job.layout.visit(
+        low, high, job.points,
+        [&](std::uint32_t from, std::uint32_t to) { finder.scan(job.first[from], job.first[to], any); },
+        [&](std::uint32_t from, std::uint32_t to, std::int32_t y, std::int32_t z) {
+          finder.scan(job.first[from], job.first[to], [&](std::uint32_t at, Wide::Bits& bits) {
+            const std::uint16_t *ys = job.places + job.stride + at, *zs = ys + job.stride;
+            for (Wide::Bits rest = bits; rest != 0; rest &= rest - 1) {
+              const int i = __builtin_ctz(rest);
+              if (!CellLayout::is_row(ys[i], y) || !CellLayout::is_row(zs[i], z)) bits &= ~(rest & -rest);
+            }
+          });
+        },
+        [&] { finder.scan(0, static_cast<std::uint32_t>(job.points), any); });
+    if (found.count > found.room) {
+      found_rows.count = before;
+      return m;
+    }
+    job.boxes[m] = box;
+    ends[m - begin] = static_cast<Index>(found.count);
+  }
+  found_rows.count = found.count;
+  return end;
+}
+
+/// A place in double precision, and the same about the origin in single precision.
+struct Place {
+#if defined(__AVX2__)
+  __m256d x;  // x, y, y, z
+
+  CDFP_ALWAYS_INLINE explicit Place(const double* p)
+      : x(_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(p)), _mm_loadu_pd(p + 1), 1)) {}
+  CDFP_ALWAYS_INLINE Float4 about(const Place& origin) const {
+    const auto lanes = reinterpret_cast<Float4>(_mm256_cvtpd_ps(_mm256_sub_pd(x, origin.x)));
+    return __builtin_shufflevector(lanes, lanes, 0, 1, 3, 3);
+  }
+#else
+  Double2 xy, z;
+
+  CDFP_ALWAYS_INLINE explicit Place(const double* p) : xy{p[0], p[1]}, z{p[2], 0} {}
+  CDFP_ALWAYS_INLINE Float4 about(const Place& origin) const {
+    typedef float Float2 __attribute__((vector_size(8)));
+    const auto flat = __builtin_convertvector(xy - origin.xy, Float2);
+    const auto high = __builtin_convertvector(z - origin.z, Float2);
+    return __builtin_shufflevector(flat, high, 0, 1, 2, 3);
+  }
+#endif
+};
+
+double place_segments(const Index* corners, const double* position, const double* middle, std::int64_t begin,
+                      std::int64_t end, RoughBox* boxes) {
+  constexpr std::int64_t kBatch = 64;  // roots side by side
+  const Place origin(middle);
+  double sum = 0, length[kBatch];
+  for (std::int64_t first = begin; first < end; first += kBatch) {
+    const std::int64_t count = end - first < kBatch ? end - first : kBatch;
+    for (std::int64_t i = 0; i < count; ++i) {
+      const Index* of = corners + 4 * (first + i);
+      const double* x[4];
+      for (int c = 0; c < 4; ++c)
+        x[c] = position + 3 * static_cast<std::size_t>(of[c] == kNone ? of[0] : of[c]);
+      const Float4 first_corner = Place(x[0]).about(origin);
+      RoughBox box{first_corner, first_corner};
+      for (int c = 1; c < 4; ++c) {
+        const Float4 corner = Place(x[c]).about(origin);
+        box = {lesser(box.low, corner), greater(box.high, corner)};
+      }
+      boxes[first + i] = box;
+      // Half the cross product of the diagonals.
+      const double p0 = x[2][0] - x[0][0], p1 = x[2][1] - x[0][1], p2 = x[2][2] - x[0][2];
+      const double q0 = x[3][0] - x[1][0], q1 = x[3][1] - x[1][1], q2 = x[3][2] - x[1][2];
+      const double a = p1 * q2 - p2 * q1, b = p2 * q0 - p0 * q2, c = p0 * q1 - p1 * q0;
+      length[i] = 0.25 * (a * a + b * b + c * c);
+    }
+    for (std::int64_t i = 0; i < count; ++i) length[i] = std::sqrt(std::sqrt(length[i]));
+    for (std::int64_t i = 0; i < count; ++i) sum += length[i];
+  }
+  return sum;
+}
+
+RoughBox place_nodes(const Index* nodes, const double* position, const double* middle, std::int64_t begin,
+                     std::int64_t end, Float4* places) {
+  const Place origin(middle);
+  const Float4 first = Place(position + 3 * static_cast<std::size_t>(nodes[begin])).about(origin);
+  RoughBox space{first, first};
+  for (std::int64_t i = begin; i < end; ++i) {
+    const Float4 place = Place(position + 3 * static_cast<std::size_t>(nodes[i])).about(origin);
+    places[i] = place;
+    space.low = lesser(space.low, place);
+    space.high = greater(space.high, place);
+  }
+  return space;
+}
+
+}  // namespace CDFP_ISA
+
+const SearchKernels CDFP_SEARCH_KERNELS{CDFP_ISA::place_nodes, CDFP_ISA::place_segments,
+                                        CDFP_ISA::pair_nodes};
+
+}  // namespace cdfp

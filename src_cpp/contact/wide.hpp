@@ -1,0 +1,177 @@
+/// As many points side by side as the instruction set in use compares at once. For inclusion where CDFP_ISA
+/// is set.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "cdfp/types.hpp"
+#include "core/lanes.hpp"
+
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+namespace cdfp::CDFP_ISA {
+
+#if defined(__AVX512BW__) && defined(__AVX512VL__)
+
+struct Wide {
+  using Bits = std::uint32_t;
+  static constexpr std::uint32_t kLanes = 32;
+
+  /// Places from `low` to `high`, modulo 2^16.
+  struct Query {
+    __m512i low[3], extent[3];
+    Query() = default;
+    CDFP_ALWAYS_INLINE Query(Int4 l, Int4 h) {
+      const Int4 e = lesser(h - l, 65535 - Int4{});
+      for (int d = 0; d < 3; ++d) {
+        low[d] = _mm512_set1_epi16(static_cast<std::int16_t>(l[d]));
+        extent[d] = _mm512_set1_epi16(static_cast<std::int16_t>(e[d]));
+      }
+    }
+    CDFP_ALWAYS_INLINE Bits overlap(const std::uint16_t* places, std::size_t stride) const {
+      Bits bits = ~Bits{0};
+      for (std::size_t d = 0; d < 3; ++d) {
+        const __m512i at = _mm512_loadu_si512(places + d * stride);
+        bits = _mm512_mask_cmple_epu16_mask(bits, _mm512_sub_epi16(at, low[d]), extent[d]);
+      }
+      return bits;
+    }
+  };
+  /// The corners of a segment.
+  struct Corners {
+    __m512i corner[4];
+    CDFP_ALWAYS_INLINE explicit Corners(const Index* corners) {
+      for (int i = 0; i < 4; ++i) corner[i] = _mm512_set1_epi32(corners[i]);
+    }
+    CDFP_ALWAYS_INLINE Bits among(const Index* nodes) const {
+      const __m512i first = _mm512_loadu_si512(nodes), last = _mm512_loadu_si512(nodes + 16);
+      Bits of_first = 0, of_last = 0;
+      for (int i = 0; i < 4; ++i) {
+        of_first |= _mm512_cmpeq_epi32_mask(first, corner[i]);
+        of_last |= _mm512_cmpeq_epi32_mask(last, corner[i]);
+      }
+      return of_first | of_last << 16;
+    }
+  };
+  /// Those whose bits are set, in order; writes up to `kLanes`.
+  CDFP_ALWAYS_INLINE static void pick(const Index* ids, Bits bits, Index* to) {
+    const auto first = static_cast<__mmask16>(bits), last = static_cast<__mmask16>(bits >> 16);
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(first, _mm512_loadu_si512(ids)));
+    if (last == 0) return;
+    _mm512_storeu_si512(to + __builtin_popcount(first),
+                        _mm512_maskz_compress_epi32(last, _mm512_loadu_si512(ids + 16)));
+  }
+};
+
+#elif defined(__AVX2__)
+
+struct Wide {
+  using Bits = std::uint32_t;
+  static constexpr std::uint32_t kLanes = 16;
+
+  struct Query {
+    __m256i low[3], extent[3];
+    Query() = default;
+    CDFP_ALWAYS_INLINE Query(Int4 l, Int4 h) {
+      const Int4 e = lesser(h - l, 65535 - Int4{});
+      for (int d = 0; d < 3; ++d) {
+        low[d] = _mm256_set1_epi16(static_cast<std::int16_t>(l[d]));
+        extent[d] = _mm256_set1_epi16(static_cast<std::int16_t>(e[d]));
+      }
+    }
+    CDFP_ALWAYS_INLINE Bits overlap(const std::uint16_t* places, std::size_t stride) const {
+      __m256i all = _mm256_set1_epi16(-1);
+      for (std::size_t d = 0; d < 3; ++d) {
+        const __m256i at = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(places + d * stride));
+        const __m256i above = _mm256_sub_epi16(at, low[d]);
+        all = _mm256_and_si256(all, _mm256_cmpeq_epi16(_mm256_min_epu16(above, extent[d]), above));
+      }
+      return bits_of(all);
+    }
+  };
+  struct Corners {
+    __m256i corner[4];
+    CDFP_ALWAYS_INLINE explicit Corners(const Index* corners) {
+      for (int i = 0; i < 4; ++i) corner[i] = _mm256_set1_epi32(corners[i]);
+    }
+    CDFP_ALWAYS_INLINE Bits among(const Index* nodes) const {
+      return among_eight(nodes) | among_eight(nodes + 8) << 8;
+    }
+    CDFP_ALWAYS_INLINE Bits among_eight(const Index* nodes) const {
+      const __m256i eight = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(nodes));
+      __m256i any = _mm256_cmpeq_epi32(eight, corner[0]);
+      for (int i = 1; i < 4; ++i) any = _mm256_or_si256(any, _mm256_cmpeq_epi32(eight, corner[i]));
+      return static_cast<Bits>(_mm256_movemask_ps(_mm256_castsi256_ps(any)));
+    }
+  };
+  CDFP_ALWAYS_INLINE static void pick(const Index* ids, Bits bits, Index* to) {
+    const Bits first = bits & 0xFFU;
+    pick_eight(ids, first, to);
+    if (bits >> 8 != 0) pick_eight(ids + 8, bits >> 8, to + __builtin_popcount(first));
+  }
+
+ private:
+  CDFP_ALWAYS_INLINE static Bits bits_of(__m256i truth) {
+    const __m256i bytes = _mm256_packs_epi16(truth, _mm256_setzero_si256());
+    const auto bits = static_cast<Bits>(_mm256_movemask_epi8(bytes));
+    return (bits & 0xFFU) | (bits >> 8 & 0xFF00U);
+  }
+  CDFP_ALWAYS_INLINE static void pick_eight(const Index* ids, Bits bits, Index* to) {
+    const __m256i lanes =
+        _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(kLaneLists[bits].lanes)));
+    const __m256i eight = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(eight, lanes));
+  }
+};
+
+#else
+
+struct Wide {
+  using Bits = std::uint32_t;
+  static constexpr std::uint32_t kLanes = 8;
+
+  struct Query {
+    Short8 low[3], extent[3];
+    Query() = default;
+    CDFP_ALWAYS_INLINE Query(Int4 l, Int4 h) {
+      const Int4 e = lesser(h - l, 65535 - Int4{});
+      low[0] = low_half8<0>(l), low[1] = low_half8<1>(l), low[2] = low_half8<2>(l);
+      extent[0] = low_half8<0>(e), extent[1] = low_half8<1>(e), extent[2] = low_half8<2>(e);
+    }
+    CDFP_ALWAYS_INLINE Bits overlap(const std::uint16_t* places, std::size_t stride) const {
+      Truth8 all{};
+      all = ~all;
+      for (std::size_t d = 0; d < 3; ++d) {
+        const Short8 above = load8(places + d * stride) - low[d];
+        all &= above <= extent[d];
+      }
+      return lane_bits(all);
+    }
+  };
+  struct Corners {
+    Int4 corner[4];
+    CDFP_ALWAYS_INLINE explicit Corners(const Index* corners) {
+      for (int i = 0; i < 4; ++i) corner[i] = corners[i] - Int4{};
+    }
+    CDFP_ALWAYS_INLINE Bits among(const Index* nodes) const {
+      const Int4 first = load4(nodes), last = load4(nodes + 4);
+      Int4 of_first{}, of_last{};
+      for (int i = 0; i < 4; ++i) of_first |= first == corner[i], of_last |= last == corner[i];
+      return lane_bits(of_first, of_last);
+    }
+  };
+  CDFP_ALWAYS_INLINE static void pick(const Index* ids, Bits bits, Index* to) {
+    const LaneList& list = kLaneLists[bits];
+    for (int i = 0; i < 4; ++i) to[i] = ids[list.lanes[i]];
+    if (list.count > 4) {
+      for (int i = 4; i < 8; ++i) to[i] = ids[list.lanes[i]];
+    }
+  }
+};
+
+#endif
+
+}  // namespace cdfp::CDFP_ISA
