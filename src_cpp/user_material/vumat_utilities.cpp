@@ -14,6 +14,10 @@
 #include "user_material/vumat_run.hpp"
 
 using cdfp::vumat_run;
+namespace cdfp {
+void keep_vumat_utilities() {}
+}  // namespace cdfp
+
 using cdfp::VumatHost;
 using cdfp::VumatRun;
 
