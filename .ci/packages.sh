@@ -5,7 +5,7 @@
 set -euo pipefail
 packages=(g++ gfortran cmake make pkg-config libeigen3-dev libhdf5-dev libtomlplusplus-dev libcli11-dev
   nlohmann-json3-dev libcairo2-dev zlib1g-dev fonts-dejavu-core)
-[ "${1:-}" = tests ] && packages+=(libgtest-dev clang clang-format clang-tidy libomp-dev valgrind python3)
+[ "${1:-}" = tests ] && packages+=(libgtest-dev clang clang-format clang-tidy doxygen libomp-dev valgrind python3)
 missing=()
 for package in "${packages[@]}"; do
   dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")

@@ -3,10 +3,10 @@
 #   benchmarks/run.sh NAME [arguments]
 set -euo pipefail
 cd "$(dirname "$0")/.."
-names=$(cd benchmarks && ls ./*.cpp | sed 's|^./||; s|\.cpp$||' | tr '\n' ' ')
+names=$(cd benchmarks && ls ./*.cpp ./*.f90 | sed 's|^./||; s|\.[a-z0-9]*$||' | tr '\n' ' ')
 name=${1:?"usage: benchmarks/run.sh NAME; there are: $names"}
 shift
-if [ ! -f "benchmarks/$name.cpp" ]; then
+if [ ! -f "benchmarks/$name.cpp" ] && [ ! -f "benchmarks/$name.f90" ]; then
   echo "there is no benchmark '$name'; there are: $names" >&2
   exit 2
 fi

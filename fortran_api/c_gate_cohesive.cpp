@@ -169,7 +169,8 @@ int32_t cdfp_cohesive_set_parts(cdfp_cohesive* cohesive, const cdfp_topology* to
 
 int32_t cdfp_cohesive_find_open(cdfp_cohesive* cohesive, const cdfp_topology* topology, int64_t nodes,
                                 const double* position, int64_t elements, const double* stress,
-                                const int32_t** facets, const double** tractions, int64_t* count) {
+                                int32_t threads, const int32_t** facets, const double** tractions,
+                                int64_t* count) {
   return guarded(__func__, [&] {
     const Change c(cohesive);
     const Look t(topology);
@@ -181,7 +182,7 @@ int32_t cdfp_cohesive_find_open(cdfp_cohesive* cohesive, const cdfp_topology* to
     if (!c->criterion) {
       throw Error(Status::bad_state, "no parts are known; call cdfp_cohesive_set_parts first");
     }
-    c->criterion->find(t->topology, vectors(position, nodes, "position"), {stress, 6 * e}, c->open);
+    c->criterion->find(t->topology, vectors(position, nodes, "position"), {stress, 6 * e}, c->open, threads);
     c->facets.clear();
     c->tractions.clear();
     for (const CohesiveCriterion::Opening& open : c->open) {

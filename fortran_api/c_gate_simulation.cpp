@@ -162,6 +162,20 @@ int32_t cdfp_simulation_masses(const cdfp_simulation* simulation, const double**
   return guarded(__func__, [&] { show(Look(simulation)->masses(), 1, masses, nodes, "masses"); });
 }
 
+int32_t cdfp_simulation_get_stresses(const cdfp_simulation* simulation, int64_t elements, double* stress) {
+  return guarded(__func__, [&] {
+    const Look s(simulation);
+    need_array(stress, elements, "stress");
+    const auto count = static_cast<int64_t>(s->model().mesh.types.size());
+    if (elements != count) {
+      refuse("'stress' has room for " + std::to_string(elements) + " elements; the simulation has " +
+             std::to_string(count));
+    }
+    const std::vector<double> all = s->stresses();
+    std::copy(all.begin(), all.end(), stress);
+  });
+}
+
 int32_t cdfp_simulation_set_positions(cdfp_simulation* simulation, int64_t nodes, const double* positions) {
   return guarded(__func__,
                  [&] { Change(simulation)->set_positions(vectors(positions, nodes, "positions")); });
@@ -270,6 +284,23 @@ int32_t cdfp_simulation_first_crack(const cdfp_simulation* simulation, const cha
       return;
     }
     refuse("no part '" + std::string(part) + "' that may crack; give the part a cohesive law");
+  });
+}
+
+int32_t cdfp_simulation_stage_count(const cdfp_simulation* simulation, int64_t* count) {
+  return guarded(__func__, [&] {
+    set(count, static_cast<int64_t>(Look(simulation)->summary().stages.size()), "count");
+  });
+}
+
+int32_t cdfp_simulation_stage(const cdfp_simulation* simulation, int64_t stage, double* seconds,
+                              int64_t* calls, char* text, int64_t capacity, int64_t* length) {
+  return guarded(__func__, [&] {
+    const Summary summary = Look(simulation)->summary();
+    need_number(stage, static_cast<int64_t>(summary.stages.size()), "stage");
+    set(seconds, summary.stages[stage].seconds, "seconds");
+    set(calls, int64_t{summary.stages[stage].calls}, "calls");
+    copy_text(summary.stages[stage].name, text, capacity, length);
   });
 }
 

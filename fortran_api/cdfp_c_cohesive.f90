@@ -111,14 +111,15 @@ module cdfp_c_cohesive
       integer(c_int32_t) :: status
     end function
 
-    function cdfp_cohesive_find_open(cohesive, topology, nodes, position, elements, stress, facets, &
-        tractions, count) bind(c) result(status)
+    function cdfp_cohesive_find_open(cohesive, topology, nodes, position, elements, stress, threads, &
+        facets, tractions, count) bind(c) result(status)
       import
       type(c_ptr), value :: cohesive, topology
       integer(c_int64_t), value :: nodes
       real(c_double), intent(in) :: position(*)
       integer(c_int64_t), value :: elements
       real(c_double), intent(in) :: stress(*)
+      integer(c_int32_t), value :: threads
       type(c_ptr), intent(inout) :: facets, tractions
       integer(c_int64_t), intent(inout) :: count
       integer(c_int32_t) :: status

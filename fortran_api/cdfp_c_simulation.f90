@@ -147,6 +147,14 @@ module cdfp_c_simulation
       integer(c_int32_t) :: status
     end function
 
+    function cdfp_simulation_get_stresses(simulation, elements, stress) bind(c) result(status)
+      import
+      type(c_ptr), value :: simulation
+      integer(c_int64_t), value :: elements
+      real(c_double), intent(inout) :: stress(*)
+      integer(c_int32_t) :: status
+    end function
+
     function cdfp_simulation_set_positions(simulation, nodes, positions) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
@@ -206,6 +214,26 @@ module cdfp_c_simulation
       real(c_double), intent(inout) :: time
       integer(c_int32_t), intent(inout) :: layer
       real(c_double), intent(inout) :: position(3)
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_simulation_stage_count(simulation, count) bind(c) result(status)
+      import
+      type(c_ptr), value :: simulation
+      integer(c_int64_t), intent(inout) :: count
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_simulation_stage(simulation, stage, seconds, calls, text, capacity, &
+        length) bind(c) result(status)
+      import
+      type(c_ptr), value :: simulation
+      integer(c_int64_t), value :: stage
+      real(c_double), intent(inout) :: seconds
+      integer(c_int64_t), intent(inout) :: calls
+      character(kind=c_char), intent(inout) :: text(*)
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(inout) :: length
       integer(c_int32_t) :: status
     end function
 

@@ -175,12 +175,13 @@ contains
 
   !> Facets between two elements of one part that reach their strength, in ascending order. `stress` (6, bulk
   !> elements): Cauchy, xx yy zz xy yz zx. `facets` (3, n): element, facet, law; `tractions` (3, n).
-  subroutine find_open(this, topology, x, stress, facets, tractions, stat, errmsg)
+  subroutine find_open(this, topology, x, stress, facets, tractions, threads, stat, errmsg)
     class(cdfp_cohesive), intent(in) :: this
     type(cdfp_topology), intent(in) :: topology
     real(c_double), contiguous, intent(in) :: x(:, :), stress(:, :)
     integer(c_int32_t), allocatable, intent(out) :: facets(:, :)
     real(c_double), allocatable, intent(out) :: tractions(:, :)
+    integer, intent(in), optional :: threads
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     type(c_ptr) :: facet_data, traction_data
@@ -193,7 +194,8 @@ contains
       return
     end if
     status = cdfp_cohesive_find_open(this%handle%address, topology%handle%address, size(x, 2, c_int64_t), x, &
-                                     size(stress, 2, c_int64_t), stress, facet_data, traction_data, count)
+                                     size(stress, 2, c_int64_t), stress, threads_or_one(threads), &
+                                     facet_data, traction_data, count)
     if (status == CDFP_OK) then
       call copy_rows(facet_data, 3_c_int64_t, count, facets)
       allocate (tractions(3, count))

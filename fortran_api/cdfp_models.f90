@@ -549,7 +549,7 @@ contains
 
   !> Forces of the program's own: `callback` is `c_funloc` of a `bind(c)` subroutine with the arguments
   !> `type(cdfp_nodal_load), intent(in) :: load` and `type(c_ptr), value :: user_data`. It is called once a step
-  !> and fills `load%force`, which is 0 at first. Its work is external work.
+  !> and adds to `load%force`, which holds the forces of elements and gravity. Its work is external work.
   subroutine set_load_callback(this, callback, user_data, stat, errmsg)
     class(cdfp_model), intent(in) :: this
     type(c_funptr), intent(in) :: callback

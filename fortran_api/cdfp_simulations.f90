@@ -32,6 +32,7 @@ module cdfp_simulations
     procedure :: velocities
     procedure :: forces
     procedure :: masses
+    procedure :: get_stresses
     procedure :: body_count
     procedure :: body
     procedure :: cohesive_count
@@ -40,6 +41,8 @@ module cdfp_simulations
     procedure :: energies
     procedure :: summary
     procedure :: first_crack
+    procedure :: stage_count
+    procedure :: get_stage
     procedure :: warning_count
     procedure :: warning
     procedure :: history
@@ -296,6 +299,21 @@ contains
     call report(status, stat, errmsg)
   end function
 
+  !> Cauchy stress, mean over each element, into `stress` (6, elements): xx yy zz xy yz zx, Pa.
+  subroutine get_stresses(this, stress, stat, errmsg)
+    class(cdfp_simulation), intent(in) :: this
+    real(c_double), contiguous, intent(inout) :: stress(:, :)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    if (size(stress, 1) /= 6) then
+      call refuse('get_stresses: stress must be of shape (6, elements)', stat, errmsg)
+      return
+    end if
+    call report(cdfp_simulation_get_stresses(this%handle%address, size(stress, 2, c_int64_t), stress), stat, &
+                errmsg)
+  end subroutine
+
   function vectors(ask, this, stat, errmsg) result(view)
     procedure(ask_nodes) :: ask
     class(cdfp_simulation), intent(in) :: this
@@ -405,6 +423,39 @@ contains
     call report(cdfp_simulation_first_crack(this%handle%address, c_text(part), time, number, position), &
                 stat, errmsg)
     layer = int(number) + 1
+  end subroutine
+
+  !> Stages of the step, such as "traction".
+  function stage_count(this, stat, errmsg) result(stages)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer :: stages
+    integer(c_int64_t) :: count
+
+    count = 0
+    call report(cdfp_simulation_stage_count(this%handle%address, count), stat, errmsg)
+    stages = int(count)
+  end function
+
+  !> Wall time (s) and calls so far.
+  subroutine get_stage(this, number, name, seconds, calls, stat, errmsg)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(in) :: number
+    character(len=:), allocatable, intent(out) :: name
+    real(c_double), intent(out) :: seconds
+    integer(c_int64_t), intent(out) :: calls
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(kind=c_char) :: buffer(256)
+    integer(c_int64_t) :: length
+
+    length = 0
+    seconds = 0
+    calls = 0
+    call report(cdfp_simulation_stage(this%handle%address, int(number, c_int64_t) - 1, seconds, calls, buffer, &
+                                      size(buffer, kind=c_int64_t), length), stat, errmsg)
+    name = fortran_text(buffer, length)
   end subroutine
 
   function warning_count(this, stat, errmsg) result(warnings)

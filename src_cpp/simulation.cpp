@@ -4,7 +4,8 @@
 //   -----------------+------------------------------+-------------------------------------------
 //   drift            | velocity                     | position, rigid bodies; force = 0
 //   material         | position, users' laws        | stress of users' laws, deleted elements
-//   internal_force   | position, material state     | force, material state, critical elements
+//   internal_force   | position, material state     | force, material state, critical elements; not of blocks
+//                    |                              | of elements that have not moved yet
 //   criterion        | critical elements, stress    | facets that open
 //   insertion        | facets that open             | topology, nodes, element corners, cohesive elements
 //   gravity, load    | mass, position, velocity     | force
@@ -259,7 +260,7 @@ void Simulation::Stages::list_stages() {
     });
   }
   add_stage(forces_, "internal_force",
-            [this] { elements.add_force(nodes.position, nodes.force, step_size, threads); });
+            [this] { elements.add_force(nodes.position, nodes.force, step_size, threads, nodes.reference); });
   if (criterion) {
     add_stage(forces_, "criterion", [this] {
       criterion->find(
@@ -385,15 +386,15 @@ void Simulation::Stages::search() {
 
 /// Over a drift a force does the work of its mean between the two ends.
 void Simulation::Stages::add_load() {
-  load_.assign(nodes.position.size(), 0.0);
-  model.load({nodes.count(), time, nodes.position.data(), nodes.velocity.data(), load_.data()});
+  load_.assign(nodes.force.begin(), nodes.force.end());
+  model.load({nodes.count(), time, nodes.position.data(), nodes.velocity.data(), nodes.force.data()});
   for (std::size_t i = 0; i < load_.size(); ++i) {
+    load_[i] = nodes.force[i] - load_[i];
     if (!std::isfinite(load_[i])) {
       throw Error(Status::diverged, "the load at node " + std::to_string(i / 3) +
                                         " is not a finite number at time " + std::to_string(1e6 * time) +
                                         " us; check the load callback");
     }
-    nodes.force[i] += load_[i];
   }
   if (steps > 0) external_work += 0.5 * step_size * load_work();
 }
@@ -697,6 +698,21 @@ std::span<const double> Simulation::masses() const {
 }
 Index Simulation::node_count() const {
   return stages_->nodes.count();
+}
+
+std::vector<double> Simulation::stresses() const {
+  const Stages& s = *stages_;
+  const Index count = s.model.mesh.element_count();
+  std::vector<double> all(6 * static_cast<std::size_t>(count));
+  s.threads.for_ranges(count, 256, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t e = begin; e < end; ++e) {
+      const Mat3 m = s.elements.stress(static_cast<Index>(e), s.nodes.position);
+      double* out = &all[6 * static_cast<std::size_t>(e)];
+      out[0] = m(0, 0), out[1] = m(1, 1), out[2] = m(2, 2);
+      out[3] = m(0, 1), out[4] = m(1, 2), out[5] = m(2, 0);
+    }
+  });
+  return all;
 }
 
 void Simulation::set_positions(std::span<const double> positions) {

@@ -287,13 +287,13 @@ int32_t cdfp_model_add_initial_velocity(cdfp_model* model, const char* part, con
                                         const double* gradient);
 int32_t cdfp_model_set_gravity(cdfp_model* model, const double* gravity);
 
-/** What a load is asked for at a step. Vectors are (nodes, 3); nodes that cracks made are among them. */
+/** What a load is given at a step. Vectors are (nodes, 3); nodes that cracks made are among them. */
 typedef struct cdfp_nodal_load {
   int64_t nodes;
   double time;            /**< s */
   const double* position; /**< m */
   const double* velocity; /**< m/s, at the half step that led to `position` */
-  double* force;          /**< out, 0 at first: N */
+  double* force;          /**< N: of elements and gravity so far; the load is what is added */
 } cdfp_nodal_load;
 
 typedef void (*cdfp_load_callback)(const cdfp_nodal_load* load, void* user_data);
@@ -418,6 +418,8 @@ int32_t cdfp_simulation_velocities(const cdfp_simulation* simulation, const doub
 /** All nodal forces of the last step. */
 int32_t cdfp_simulation_forces(const cdfp_simulation* simulation, const double** forces, int64_t* nodes);
 int32_t cdfp_simulation_masses(const cdfp_simulation* simulation, const double** masses, int64_t* nodes);
+/** Cauchy stress, mean over each element, into `stress` (elements, 6): xx yy zz xy yz zx, Pa. */
+int32_t cdfp_simulation_get_stresses(const cdfp_simulation* simulation, int64_t elements, double* stress);
 
 /* Changes of the state between steps, (nodes, 3). Nodes of rigid bodies and directions that are prescribed
  * keep what they have; the energy that a change brings is external work. */
@@ -442,6 +444,10 @@ int32_t cdfp_simulation_summary(const cdfp_simulation* simulation, cdfp_summary*
  *  the facet in the undeformed mesh. */
 int32_t cdfp_simulation_first_crack(const cdfp_simulation* simulation, const char* part, double* time,
                                     int32_t* layer, double* position);
+/** Stages of the step: wall time so far and calls, and the name of the stage. */
+int32_t cdfp_simulation_stage_count(const cdfp_simulation* simulation, int64_t* count);
+int32_t cdfp_simulation_stage(const cdfp_simulation* simulation, int64_t stage, double* seconds,
+                              int64_t* calls, char* text, int64_t capacity, int64_t* length);
 int32_t cdfp_simulation_warning_count(const cdfp_simulation* simulation, int64_t* count);
 int32_t cdfp_simulation_warning(const cdfp_simulation* simulation, int64_t warning, char* text,
                                 int64_t capacity, int64_t* length);
@@ -579,7 +585,8 @@ int32_t cdfp_cohesive_set_parts(cdfp_cohesive* cohesive, const cdfp_topology* to
  *  next such call. */
 int32_t cdfp_cohesive_find_open(cdfp_cohesive* cohesive, const cdfp_topology* topology, int64_t nodes,
                                 const double* position, int64_t elements, const double* stress,
-                                const int32_t** facets, const double** tractions, int64_t* count);
+                                int32_t threads, const int32_t** facets, const double** tractions,
+                                int64_t* count);
 
 /** What `cdfp_topology_insert_cohesive` has reported, after each insertion and before `cdfp_cohesive_insert`:
  *  `new_nodes` (new_node_count, 2), `renumbered` (renumbered_count, 4). */

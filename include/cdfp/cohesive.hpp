@@ -35,7 +35,8 @@ double effective_traction(const CohesiveLaw& law, std::span<const double, 3> tra
 
 /// Points that carry `traction` (n, 3), Pa, on faces with unit normals `normal` (n, 3), that the upper side
 /// exerts on the lower one; the normal points from lower to upper. Throws `Error(bad_argument)` for arrays of
-/// other lengths, a law without strength or energy, and a traction that neither pulls nor shears.
+/// other lengths, a law without strength or energy or with a rate, which only `CohesiveElements` knows, and a
+/// traction that neither pulls nor shears.
 void start_cohesive(const CohesiveLaw& law, std::span<const double> traction, std::span<const double> normal,
                     std::span<CohesivePoint> points);
 
@@ -82,7 +83,7 @@ class CohesiveCriterion {
   /// order xx yy zz xy yz zx. Throws `Error(bad_argument)` for arrays of other lengths and a stress that is
   /// not finite.
   void find(const Topology& topology, std::span<const double> position, std::span<const double> stress,
-            std::vector<Opening>& open) const;
+            std::vector<Opening>& open, int threads = 1);
 
  private:
   struct Kept;

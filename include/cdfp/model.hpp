@@ -193,13 +193,13 @@ struct InitialVelocity {
   std::array<double, 9> gradient{};  ///< 1/s, row by row
 };
 
-/// What a load is asked for at a step. Vectors are (nodes, 3); nodes that cracks made are among them.
+/// What a load is given at a step. Vectors are (nodes, 3); nodes that cracks made are among them.
 struct NodalLoad {
   std::int64_t nodes = 0;
   double time = 0;                   ///< s
   const double* position = nullptr;  ///< m
   const double* velocity = nullptr;  ///< m/s, at the half step that led to `position`
-  double* force = nullptr;           ///< out, 0 at first: N
+  double* force = nullptr;           ///< N: of elements and gravity so far; the load is what is added
 };
 
 struct ContactSettings {

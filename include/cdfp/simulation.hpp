@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "cdfp/model.hpp"
 #include "cdfp/results.hpp"
@@ -42,6 +43,8 @@ class Simulation {
   std::span<const double> forces() const;      ///< N, all nodal forces of the last step
   std::span<const double> masses() const;
   Index node_count() const;
+  /// Cauchy stress of all elements, (elements, 6): xx yy zz xy yz zx, Pa, mean over the element.
+  std::vector<double> stresses() const;
 
   // Changes of the state between steps, (n, 3). Nodes of rigid bodies and directions that are prescribed keep
   // what they have; the energy that a change brings is external work. Throw `Error(bad_argument)` for another

@@ -9,8 +9,14 @@ namespace cdfp {
 
 namespace {
 
-constexpr int kIterations = 30;
-constexpr int kUndamped = 2;  ///< iterations before a correction that does not help is halved
+/// How long Newton's method goes on, after how many iterations a correction that does not help is halved, and
+/// how often.
+struct Patience {
+  int iterations, undamped, halvings;
+};
+constexpr Patience kUsual{30, 2, 6};
+/// Past the top of the softening a correction points far beyond the solution.
+constexpr Patience kGreat{40, 0, 20};
 constexpr double kSoftened =
     0.01;  ///< of the stiffness, for good, where even a slow approach does not settle
 
@@ -121,14 +127,16 @@ void ClusterSolver::correct() {
   }
 }
 
-bool ClusterSolver::iterate(double tolerance) {
+template <class Patience>
+bool ClusterSolver::iterate(double tolerance, const Patience& patience) {
   double previous = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kIterations; ++i) {
+  for (int i = 0; i < patience.iterations; ++i) {
     // The first solution often stands: its slope is only asked for if it does not.
     double size = i == 1 ? evaluate<false>() : evaluate<true>();
     if (size <= tolerance) return true;
     if (i == 1) size = evaluate<true>();
-    for (int halvings = 0; i >= kUndamped && size >= previous && halvings < 6; ++halvings) {
+    for (int halvings = 0; i >= patience.undamped && size >= previous && halvings < patience.halvings;
+         ++halvings) {
       for (std::size_t a = 1; a < nodes.size(); ++a) relative_[a] = 0.5 * (relative_[a] + before_[a]);
       size = evaluate<true>();
       if (size <= tolerance) return true;
@@ -140,9 +148,10 @@ bool ClusterSolver::iterate(double tolerance) {
   return evaluate<true>() <= tolerance;
 }
 
-void ClusterSolver::start(bool at_rest) {
+void ClusterSolver::start(double way) {
   for (std::size_t a = 1; a < nodes.size(); ++a) {
-    relative_[a] = at_rest ? nodes[a].behind - nodes[0].behind : nodes[a].free - nodes[0].free;
+    const Vec3 behind = nodes[a].behind - nodes[0].behind, free = nodes[a].free - nodes[0].free;
+    relative_[a] = behind + way * (free - behind);
   }
 }
 
@@ -151,14 +160,14 @@ bool ClusterSolver::approach(double tolerance) {
   ++approached;
   stiff_.clear();
   for (const Point& p : points) stiff_.push_back(p.increment);
-  start(true);
+  start(0);
   bool settled = false;
   for (const double share : {0.01, 0.05, 0.2, 1.0}) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       points[i].increment = stiff_[i];
       if (share < 1) points[i].increment.soften(share);
     }
-    settled = iterate(tolerance);
+    settled = iterate(tolerance, kUsual);
   }
   return settled;
 }
@@ -174,17 +183,23 @@ void ClusterSolver::solve(double step, double share) {
   for (const Point& p : points) reach = std::min(reach, p.increment.softening.reach);
   const double tolerance = share * reach;
 
-  start(true);
-  bool settled = iterate(tolerance);
+  start(0);
+  bool settled = iterate(tolerance, kUsual);
   if (!settled) settled = approach(tolerance);
+  // A point that opens past its reach in one step has a solution far from where it was.
+  for (const double way : {0.0, 1.0, 0.5}) {
+    if (settled) break;
+    start(way);
+    settled = iterate(tolerance, kGreat);
+  }
   if (!settled) {
     ++softened;
     for (Point& p : points) p.increment.soften(kSoftened);
-    settled = iterate(tolerance);
+    settled = iterate(tolerance, kUsual);
   }
   if (!settled) {
     ++fixed;
-    start(true);
+    start(0);
     for (Point& p : points) p.increment.freeze(opening(p));
     evaluate<true>();
     correct();

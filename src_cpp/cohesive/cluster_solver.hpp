@@ -45,12 +45,14 @@ class ClusterSolver {
   std::vector<std::int32_t> broke;  ///< for the caller
 
  private:
-  bool iterate(double tolerance);
+  template <class Patience>
+  bool iterate(double tolerance, const Patience& patience);
   bool approach(double tolerance);
   template <bool Sloped>
   double evaluate();
   void correct();
-  void start(bool at_rest);
+  /// From rest against each other, 0, to free flight, 1.
+  void start(double way);
   Vec3 opening(const Point& p) const;
 
   double half_ = 0;

@@ -69,8 +69,8 @@ struct CohesiveCriterion::Kept {
   std::vector<Index> law_of_element;
   std::vector<double>
       least;  ///< Pa2 by element: square of the stress norm below which none of its facets opens
-  mutable std::vector<Index> candidates;
-  mutable std::vector<OpenFacet> open;
+  std::vector<Index> candidates;
+  std::vector<OpenFacet> open;
 };
 
 CohesiveCriterion::CohesiveCriterion(const Topology& topology, std::span<const double> coordinates,
@@ -90,7 +90,7 @@ CohesiveCriterion::CohesiveCriterion(CohesiveCriterion&&) noexcept = default;
 CohesiveCriterion& CohesiveCriterion::operator=(CohesiveCriterion&&) noexcept = default;
 
 void CohesiveCriterion::find(const Topology& topology, std::span<const double> position,
-                             std::span<const double> stress, std::vector<Opening>& open) const {
+                             std::span<const double> stress, std::vector<Opening>& open, int threads) {
   const auto elements = static_cast<Index>(kept_->least.size());
   require(topology.bulk_count() == elements, "the topology has " + std::to_string(topology.bulk_count()) +
                                                  " bulk elements, but the criterion was made for " +
@@ -119,7 +119,7 @@ void CohesiveCriterion::find(const Topology& topology, std::span<const double> p
         const double* s = &stress[6 * static_cast<std::size_t>(e)];
         return Mat3{{Vec3{s[0], s[3], s[5]}, Vec3{s[3], s[1], s[4]}, Vec3{s[5], s[4], s[2]}}};
       },
-      kept_->open);
+      kept_->open, Threads(threads));
   for (const OpenFacet& facet : kept_->open) {
     Opening opening;
     opening.lower = facet.lower;

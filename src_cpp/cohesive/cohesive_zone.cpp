@@ -35,10 +35,13 @@ constexpr int kHandOverSteps = 130;
 constexpr double kCarried = 1e-10;
 constexpr double kTieStiffness = 1e5;
 constexpr double kClusterTolerance = 1e-9;  ///< of the reach
+constexpr double kTieTolerance = 1e-10;     ///< of the reach; less is lost in rounding
 constexpr int kCarriedRounds = 12;
 /// Share of its turn in a step that a pressed face follows. Pressed pairs that have slid push past one
 /// another: where their direction followed every wave along the face, they would feed it.
 constexpr double kPressedTurn = 0.01;
+/// A moment below this share of the facet's fracture energy waits until it has grown.
+constexpr double kLeastCouple = 1e-9;
 constexpr std::int64_t kGrain = 64;
 
 struct Law {
@@ -339,7 +342,7 @@ void CohesiveZone::Points::carry(const Clusters::Cluster& cluster, const NodeArr
       Point& point = points[slots[i].point];
       if (!(point.contact > 0)) load_tie(point, nodes, step, w.points[i]);
     }
-    w.solve(step, 1e-2 * kClusterTolerance);
+    w.solve(step, kTieTolerance);
     double change = 0;
     for (std::size_t i = 0; i < slots.size(); ++i) {
       Point& point = points[slots[i].point];
@@ -654,7 +657,14 @@ void CohesiveZone::Points::balance_couples(const NodeArrays& nodes) {
     Facet& facet = facets[couple.facet];
     facet.couple = couple_now(couple.facet, nodes);
     couple.held = couple.left + facet.couple;
-    frame_of(couple.facet, nodes).add_couple(couple.held, nodes);
+    double area = 0;
+    for (const Point& p : points_of(couple.facet)) area += p.area;
+    if (norm(couple.held) > kLeastCouple * area * laws[facet.law].given.fracture_energy) {
+      frame_of(couple.facet, nodes).add_couple(couple.held, nodes);
+    } else {
+      facet.couple -= couple.held;
+      couple.held = {};
+    }
   }
 }
 
@@ -669,6 +679,7 @@ void CohesiveZone::Points::book_couples(const NodeArrays& nodes, double step) {
     return change;
   };
   for (const Couple& couple : couples) {
+    if (norm(couple.held) == 0) continue;
     const FacetFrame frame = frame_of(couple.facet, nodes);
     const Vec3 turned = frame.spin([&](Index n) { return step * (nodes.v(n) + 0.5 * kick(n)); });
     const Vec3 ahead = frame.spin([&](Index n) { return (0.5 * step) * (nodes.v(n) + kick(n)); });

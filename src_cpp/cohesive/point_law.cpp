@@ -45,6 +45,10 @@ void start_cohesive(const CohesiveLaw& law, std::span<const double> traction, st
   require_rows(normal.size(), points.size(), "normal");
   require(law.fracture_energy > 0 && law.mode_ratio > 0 && law.shear_ratio > 0,
           "cohesive law '" + law.name + "' needs a positive fracture_energy, mode_ratio and shear_ratio");
+  require(law.rate_sensitivity == 0,
+          "cohesive law '" + law.name +
+              "' depends on the rate, and these points know no time; set rate_sensitivity to 0 or use "
+              "CohesiveElements");
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3 carried = Vec3::load(&traction[3 * i]);
     const double strength = effective_traction(carried, Vec3::load(&normal[3 * i]), law.shear_ratio);

@@ -15,7 +15,10 @@ namespace cdfp {
 struct ElementForce::Blocks : ElementBlocks {
   explicit Blocks(const Model& model);
 
-  void run(const Task& task, std::span<const double> position, std::span<double> force);
+  void run(const Task& task, std::span<const double> position, std::span<double> force,
+           std::span<const double> reference);
+  bool has_moved(const BlockGroup& group, std::size_t block, std::span<const double> position,
+                 std::span<const double> reference) const;
   void list_critical();
   /// Place of a critical element in the list of them.
   Index place_of_critical(Index element) const {
@@ -26,6 +29,7 @@ struct ElementForce::Blocks : ElementBlocks {
 
   std::vector<StepConstants> steps;         ///< one a group
   std::vector<std::uint64_t> critical_now;  ///< one a block, bit l: element l of the block
+  std::vector<std::uint8_t> is_awake;       ///< one a block
   std::vector<std::uint64_t> critical_set;  ///< one bit an element; empty if no part cracks
   std::vector<Index> critical_before;       ///< in words before each
   std::vector<Index> critical;
@@ -36,20 +40,40 @@ struct ElementForce::Blocks : ElementBlocks {
 };
 
 ElementForce::Blocks::Blocks(const Model& model)
-    : ElementBlocks(model), steps(groups.size()), critical_now(block_count, 0) {
+    : ElementBlocks(model), steps(groups.size()), critical_now(block_count, 0), is_awake(block_count, 0) {
   if (std::any_of(groups.begin(), groups.end(), [](const BlockGroup& g) { return g.plan.cracks; })) {
     critical_set.assign((places.size() + 63) / 64, 0);
     critical_before.assign(critical_set.size(), 0);
   }
 }
 
-void ElementForce::Blocks::run(const Task& task, std::span<const double> position, std::span<double> force) {
+void ElementForce::Blocks::run(const Task& task, std::span<const double> position, std::span<double> force,
+                               std::span<const double> reference) {
   BlockGroup& group = groups[task.group];
   for (auto block = static_cast<std::size_t>(task.first); block < static_cast<std::size_t>(task.last);
        ++block) {
+    std::uint8_t& awake = is_awake[group.first_block + block];
+    if (awake == 0) {
+      // A user's law may have stress before anything moves.
+      if (!reference.empty() && !group.user && !has_moved(group, block, position, reference)) continue;
+      awake = 1;
+    }
     critical_now[group.first_block + block] = group.kernel->add_force(
         group.input(block, position), steps[task.group], group.block_state(block), force.data());
   }
+}
+
+bool ElementForce::Blocks::has_moved(const BlockGroup& group, std::size_t block,
+                                     std::span<const double> position,
+                                     std::span<const double> reference) const {
+  const auto corners = static_cast<std::size_t>(group.corners());
+  const auto rows = static_cast<std::size_t>((group.count(block) + kLanes - 1) / kLanes);
+  const std::int32_t* offsets = group.offsets.data() + block * kBlock * corners;
+  for (std::size_t i = 0; i < rows * corners * kLanes; ++i) {
+    const double *x = &position[offsets[i]], *x0 = &reference[offsets[i]];
+    if (x[0] != x0[0] || x[1] != x0[1] || x[2] != x0[2]) return true;
+  }
+  return false;
 }
 
 /// A deleted element has neither stress nor hourglass stiffness, and does not bound the step.
@@ -141,7 +165,7 @@ double ElementForce::mean_state(Index element, int state) const {
 }
 
 void ElementForce::add_force(std::span<const double> position, std::span<double> force, double step,
-                             const Threads& threads) {
+                             const Threads& threads, std::span<const double> reference) {
   Blocks& b = *blocks_;
   for (std::size_t g = 0; g < b.groups.size(); ++g) {
     const PartPlan& plan = b.groups[g].plan;
@@ -150,14 +174,15 @@ void ElementForce::add_force(std::span<const double> position, std::span<double>
   }
   if (threads.count() == 1) {
     for (const std::vector<Blocks::Task>& tasks : b.colours) {
-      for (const Blocks::Task& task : tasks) b.run(task, position, force);
+      for (const Blocks::Task& task : tasks) b.run(task, position, force, reference);
     }
   } else {
 #pragma omp parallel num_threads(threads.count())
     for (const std::vector<Blocks::Task>& tasks : b.colours) {
       const auto count = static_cast<std::int64_t>(tasks.size());
 #pragma omp for schedule(dynamic)
-      for (std::int64_t i = 0; i < count; ++i) b.run(tasks[static_cast<std::size_t>(i)], position, force);
+      for (std::int64_t i = 0; i < count; ++i)
+        b.run(tasks[static_cast<std::size_t>(i)], position, force, reference);
     }
   }
   if (!b.critical_set.empty()) b.list_critical();

@@ -53,9 +53,11 @@ class ElementForce {
   double mean_state(Index element, int state) const;
 
   /// Adds minus the internal force to `force` and advances the material state by `step`.
-  /// The same bits for any number of threads.
+  /// The same bits for any number of threads. `reference`: undeformed positions of the same nodes, or none;
+  /// with them blocks of elements are left out until one of their nodes has moved, such as before the first
+  /// wave.
   void add_force(std::span<const double> position, std::span<double> force, double step,
-                 const Threads& threads);
+                 const Threads& threads, std::span<const double> reference = {});
 
   /// Ascending numbers of the cracking elements whose stress, at the last `add_force`, could reach the
   /// strength on some plane (Frobenius norm of the stress against strength * min(1, shear ratio)). A facet

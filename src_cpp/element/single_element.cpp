@@ -78,7 +78,7 @@ Mat3 element_stress(const BlockGroup& group, std::size_t slot, std::span<const d
                 double sum[3][3];
                 const double volume = Formulation::kirchhoff_stress(constants, x, sum, stress_of);
                 for (int i = 0; i < 3; ++i) {
-                  for (int j = 0; j < 3; ++j) stress(i, j) = sum[i][j] / volume;
+                  for (int j = 0; j <= i; ++j) stress(i, j) = stress(j, i) = sum[i][j] / volume;
                 }
               });
   return stress;

@@ -34,6 +34,9 @@ program door_test
   call topology()
   call simulation()
   call plate()
+  call cohesive_service()
+  call contact_service()
+  call state_between_steps()
   call check(live_handles() == 0, 'nothing is left at the end')
   if (failures > 0) error stop 'door_test failed'
 
@@ -275,6 +278,8 @@ contains
     real(dp), pointer :: x(:, :), v(:, :), f(:, :), m(:), history(:, :)
     integer :: done
     integer(int32) :: element
+    integer(int64) :: calls
+    character(len=:), allocatable :: stage
     real(dp) :: t
 
     call define(model)
@@ -313,6 +318,10 @@ contains
     call check(sim%finished(), 'the end')
     told = sim%summary()
     call check(sim%step_count() == told%steps .and. told%elements == 2 .and. told%threads == 1, 'summary')
+    call sim%get_stage(sim%stage_count(), stage, t, calls)
+    call check(stage == 'accelerate' .and. calls == told%steps .and. t > 0, 'the last stage of the step')
+    call sim%get_stage(0, stage, t, calls, stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'no stage -1')
     history => sim%history()
     call check(sim%history_column(1) == 'time_s' .and. size(history, 2) > 2, 'history')
     call check(same_bits(history(:1, size(history, 2):), reshape([sim%time()], [1, 1])), 'its last row')
@@ -340,6 +349,207 @@ contains
     call check(size(nodes) == 25 .and. all(x(3, nodes) <= minval(x(3, :))), 'the bottom')
     call mesh%get_facet_set('support_top', facets)
     call check(size(facets, 1) == 2 .and. size(facets, 2) == 16 .and. minval(facets(2, :)) >= 1, 'a face')
+  end subroutine
+
+  !> Two cubes whose nodes are their own: 5 to 8 below, 9 to 12 above, at the same places.
+  subroutine halves(x, v, f, mass)
+    real(dp), allocatable, intent(out) :: x(:, :), v(:, :), f(:, :), mass(:)
+
+    allocate (x(3, 16), v(3, 16), f(3, 16), mass(16))
+    x(:, :8) = coordinates(:, :8)
+    x(:, 9:) = coordinates(:, 5:)
+    v = 0
+    f = 0
+    mass = 312.5_dp
+  end subroutine
+
+  subroutine cohesive_service()
+    type(cdfp_cohesive) :: cohesive, same
+    type(cdfp_topology) :: tops
+    type(cdfp_cohesive_law) :: law
+    type(cdfp_cohesive_pair), allocatable :: pairs(:)
+    type(cdfp_cohesive_point) :: points(1)
+    real(dp), allocatable :: x(:, :), v(:, :), f(:, :), mass(:), tractions(:, :)
+    real(dp) :: stress(6, 2), traction(3, 1), normal(3, 1), opening(3, 1), stored(1), reach
+    real(dp) :: energy(4), none
+    integer(int32) :: number
+    integer(int32), allocatable :: facets(:, :), broken(:)
+
+    call halves(x, v, f, mass)
+    law = new_cohesive_law(strength=60e6_dp, fracture_energy=10.0_dp, mode_ratio=5.0_dp)
+    call cohesive%add_law(law, number, stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'the cohesive service is null')
+    call check(number == 0, 'no law of nothing')
+    call tops%create(12, hexahedra)
+    call cohesive%create(tops)
+    call cohesive%add_law(law, number)
+    call check(number == 1, 'laws from 1')
+    call cohesive%find_open(tops, coordinates, stress, facets, tractions, stat=stat, errmsg=message)
+    call check_refused(CDFP_BAD_STATE, 'call cdfp_cohesive_set_parts first')
+    call cohesive%set_parts(tops, coordinates, [1_int32, 2_int32], law_of_part=[number], stat=stat, errmsg=message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'element 1 is of part 1')
+    call cohesive%set_parts(tops, coordinates, parts, law_of_part=[number])
+    stress = 0
+    stress(3, :) = 61e6_dp
+    call cohesive%find_open(tops, coordinates, stress(1:5, :), facets, tractions, stat=stat, errmsg=message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'stress of shape (6, elements)')
+    call cohesive%find_open(tops, coordinates, stress, facets, tractions)
+    call check(all(shape(facets) == [3, 1]) .and. facets(1, 1) == 1 .and. facets(3, 1) == 1, 'element and law from 1')
+    call check(abs(tractions(3, 1) - 61e6_dp) < 1, 'the traction of the facet')
+
+    call cohesive%insert(3_int32, 1_int32, [integer(int32) :: 9, 10, 11, 12, 5, 6, 7, 8], x, 0.0_dp, &
+                         [0.0_dp, 0.0_dp, 60e6_dp])
+    same = cohesive
+    call check(same%element_count() == 1, 'a copy names the same elements')
+    call cohesive%add_force(x, v, mass(:15), f, 1e-6_dp, 0.0_dp, stat=stat, errmsg=message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'add_force: x, v and f must be of shape (3, nodes)')
+    x(2, 9) = ieee_nan()
+    call cohesive%add_force(x, v, mass, f, 1e-6_dp, 0.0_dp, stat=stat, errmsg=message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'node 8 of a cohesive element')
+    x(2, 9) = 0
+    f(3, 9:12) = 15e6_dp
+    f(3, 5:8) = -15e6_dp
+    call cohesive%add_force(x, v, mass, f, 1e-6_dp, 0.0_dp)
+    call check(all(abs(f) < 15e3_dp), 'the facet carries what pulls')
+    call cohesive%get_pairs(3_int32, pairs)
+    call check(size(pairs) == 4 .and. pairs(1)%upper == 9 .and. pairs(1)%lower == 5, 'nodes from 1')
+    call check(abs(sum(pairs%area) - 1) < 1e-12_dp .and. abs(pairs(1)%strength - 60e6_dp) < 1, 'area and strength')
+    call cohesive%get_broken(broken)
+    call check(size(broken) == 0, 'none has broken')
+    call check(cohesive%broken_count() == 0, 'nor before')
+    call cohesive%get_energies(energy(1), energy(2), energy(3), energy(4))
+    call check(all(abs(energy) < 1), 'energies')
+    none = cohesive%stiffness_over_mass(mass)
+    call check(abs(none) <= 0, 'built-in laws bound no step')
+    call cohesive%follow(reshape([1_int32], [1, 1]), reshape([1_int32], [1, 1]), stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'follow: new_nodes must be of shape (2, n)')
+    call cohesive%free()
+    call cohesive%free()
+    call check(same%element_count() == 1, 'the copy still owns')
+
+    reach = 2*10.0_dp/60e6_dp
+    traction(:, 1) = [0.0_dp, 0.0_dp, 60e6_dp]
+    normal(:, 1) = [0.0_dp, 0.0_dp, 1.0_dp]
+    opening(:, 1) = [0.0_dp, 0.0_dp, reach/2]
+    call start_cohesive(law, traction, normal, points)
+    call cohesive_traction(law, opening, normal, points, traction)
+    call check(abs(traction(3, 1) - 30e6_dp) < 1, 'half the traction at half the reach')
+    call cohesive_stored(law, normal, points, stored)
+    call check(abs(stored(1) - 2.5_dp) < 1e-9_dp, 'stored')
+    call cohesive_mean_traction(law, 2*opening, normal, points, traction)
+    call check(abs(points(1)%dissipated - 10) < 1e-9_dp, 'fracture energy')
+    call cohesive_traction(law, opening(:2, :), normal, points, traction, stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'must be of shape (3, points)')
+  end subroutine
+
+  pure real(dp) function ieee_nan()
+    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+
+    ieee_nan = ieee_value(1.0_dp, ieee_quiet_nan)
+  end function
+
+  subroutine contact_service()
+    type(cdfp_contact) :: contact
+    type(cdfp_contact_search) :: search
+    type(cdfp_touch), allocatable :: touches(:)
+    type(cdfp_body_pair), allocatable :: pairs(:)
+    real(dp), allocatable :: x(:, :), v(:, :), f(:, :), mass(:)
+    real(dp) :: weights(4), normal(3), gap, outside, stored, heat, deepest, added
+    integer(int32), allocatable :: start(:), partners(:), nodes(:)
+    integer(int32), parameter :: faces(4, 2) = reshape([integer(int32) :: 5, 6, 7, 8, 9, 12, 11, 10], [4, 2])
+    integer(int32), parameter :: of_faces(8) = [integer(int32) :: 5, 6, 7, 8, 9, 10, 11, 12], no_edges(2, 0) = 0
+    integer(int64) :: counted(4)
+
+    call halves(x, v, f, mass)
+    call search%create()
+    call search%regular(x, of_faces, faces(:3, :), no_edges, stat=stat, errmsg=message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'segments of shape (4, m)')
+    call search%adaptive(x, of_faces, faces, no_edges, stat=stat, errmsg=message)
+    call check_refused(CDFP_BAD_STATE, 'needs a regular one before')
+    call search%regular(x, of_faces, faces, no_edges)
+    call search%get_node_segments(start, partners)
+    call check(all(start == [integer(int32) :: 1, 2, 3, 4, 5, 6, 7, 8, 9]), 'rows from 1')
+    call check(all(partners == [integer(int32) :: 2, 2, 2, 2, 1, 1, 1, 1]), 'segments from 1')
+    call search%regular(x, of_faces, faces, no_edges, groups=spread(1_int32, 1, 16))
+    call search%get_node_segments(start, partners)
+    call check(size(partners) == 0, 'one group does not pair')
+    call check(.not. search%due(0.0_dp, 1e-6_dp), 'nothing moves')
+    call project_on_face([0.25_dp, 0.5_dp, 0.5_dp], coordinates(:, 5:8), weights, normal, gap, outside)
+    call check(abs(gap + 0.5_dp) < 1e-12_dp .and. abs(sum(weights) - 1) < 1e-12_dp, 'projection')
+    call project_on_face([0.25_dp, 0.5_dp, 0.5_dp], coordinates(:, 5:6), weights, normal, gap, outside, stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, '3 or 4 corners, not 2')
+
+    call contact%create(friction=0.1_dp, depth_limit=2.0_dp, stat=stat, errmsg=message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'depth_limit in (0, 1]')
+    call contact%local_search(x, stat=stat, errmsg=message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'the contact is null')
+    call contact%create(friction=0.1_dp)
+    call contact%name_part(1, 'below')
+    call contact%name_part(2, 'above')
+    call contact%add_segments(faces, [1_int32], [1_int32, 2_int32], [1e9_dp, 1e9_dp], [1.0_dp, 1.0_dp], &
+                              [1.0_dp, 1.0_dp], stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'all others of shape (n)')
+    call contact%add_segments(faces, [1_int32, 2_int32], [1_int32, 2_int32], [1e9_dp, 1e9_dp], [1.0_dp, 1.0_dp], &
+                              [1.0_dp, 1.0_dp])
+    call contact%local_search(x, stat=stat, errmsg=message)
+    call check_refused(CDFP_BAD_STATE, 'ask `due`')
+    x(3, 9:) = x(3, 9:) - 1e-3_dp
+    v(3, 9:) = -1e3_dp
+    call contact%search(x, v, 1e-6_dp)
+    call contact%local_search(x)
+    call contact%add_force(v, mass, f, 1e-6_dp)
+    call check(all(f(3, 9:12) > 0) .and. all(f(3, 5:8) < 0) .and. abs(sum(f(3, :))) < 1e-3_dp, 'action and reaction')
+    call contact%get_touches(touches)
+    call check(size(touches) == 8 .and. touches(1)%nodes(1) == 5 .and. all(touches(1)%parts == [1, 2]), 'touches')
+    call contact%get_body_pairs(pairs)
+    call check(size(pairs) == 1 .and. all(pairs(1)%parts == [1, 2]) .and. pairs(1)%force(3) < 0, 'pair of bodies')
+    call contact%get_counts(counted(1), counted(2), counted(3), counted(4))
+    call check(all(counted == [8, 2, 0, 8]), 'counts')
+    call contact%get_nodes(nodes)
+    call check(all(nodes == [integer(int32) :: 5, 6, 7, 8, 9, 12, 11, 10]), 'contact nodes from 1')
+    call contact%get_node_segments(start, partners)
+    call check(size(start) == 9 .and. partners(1) == 2, 'candidates')
+    call contact%get_energies(stored, heat, deepest)
+    call check(stored > 0 .and. deepest > 0.9e-3_dp, 'energies')
+    added = contact%stiffness_over_mass()
+    call check(added > 0, 'springs bound the step')
+    v(1, 5) = ieee_nan()
+    call contact%search(x, v, 1e-6_dp, stat=stat, errmsg=message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'velocity of node 4 is not finite')
+  end subroutine
+
+  subroutine state_between_steps()
+    type(cdfp_model) :: model
+    type(cdfp_simulation) :: sim
+    type(cdfp_energies) :: energy
+    real(dp), pointer :: view(:, :)
+    real(dp), allocatable :: v(:, :)
+    real(dp) :: stress(6, 2)
+
+    call define(model)
+    call sim%create(model)
+    call sim%advance(2)
+    view => sim%velocities()
+    v = view
+    v(1, :) = 3
+    call sim%set_velocities(v(:, :11), stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'the 12 nodes')
+    call sim%set_velocities(v(:2, :), stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'must be of shape (3, nodes)')
+    call sim%set_velocities(v)
+    energy = sim%energies()
+    call check(abs(energy%kinetic - 0.5_dp*5000*9) < 1e-6_dp .and. abs(energy%balance - 1) < 1e-12_dp, 'pushed')
+    call sim%advance(3)
+    view => sim%velocities()
+    call check(all(abs(view(1, :) - 3) < 1e-9_dp), 'and flies on')
+    view => sim%positions()
+    v = view
+    v(3, :) = v(3, :)*(1 + 1e-5_dp)
+    call sim%set_positions(v)
+    call sim%get_stresses(stress)
+    call check(all(abs(stress(3, :) - 1e-5_dp*74e9_dp*0.8_dp/(1.2_dp*0.6_dp)) < 1e3_dp), 'stretched')
+    call sim%get_stresses(stress(:, :1), stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'the simulation has 2')
   end subroutine
 
 end program door_test

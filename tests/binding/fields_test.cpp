@@ -234,6 +234,7 @@ TEST_F(Fields, Settings) {
   ASSERT_EQ(cdfp_model_set_contact(handle_, &contact_given), CDFP_OK);
   ASSERT_EQ(cdfp_model_get_contact(handle_, &back), CDFP_OK);
   EXPECT_EQ((Vector{back.cell_factor, back.buffer_factor, back.depth_limit}), (Vector{1, 2, 5}));
+  EXPECT_EQ(back.penetration_warning, 6);
   EXPECT_FALSE(back.edge_edge || back.adaptive);
   ASSERT_EQ(cdfp_model_set_end_time(handle_, 6), CDFP_OK);
   ASSERT_EQ(cdfp_model_set_fixed_step(handle_, 7), CDFP_OK);
@@ -248,7 +249,8 @@ TEST_F(Fields, Settings) {
   EXPECT_EQ(gravity, (Vector{1, 2, 3}));
   EXPECT_EQ(threads, 10);
   {
-    const auto& [surfaces, cell, buffer, penalty, friction, depth, warning, edge_edge, adaptive] = contact;
+    const auto& [surfaces, cell, buffer, penalty, friction, depth, warned, edge_edge, adaptive] = contact;
+    EXPECT_EQ(warned, 6);
     EXPECT_EQ(surfaces, std::vector<std::string>{"faces"});
     EXPECT_EQ((Vector{cell, buffer, penalty}), (Vector{1, 2, 3}));
     EXPECT_EQ(friction, 4);

@@ -270,6 +270,9 @@ TEST(CohesiveLaw, RefusesWhatItCannotUse) {
   EXPECT_THROW(start_cohesive(law, std::vector<double>(6, 0.0), six, points), Error);
   law.fracture_energy = 0;
   EXPECT_THROW(start_cohesive(law, six, six, points), Error);
+  law = law_of(1, 1);
+  law.rate_sensitivity = 0.1;
+  EXPECT_THROW(start_cohesive(law, six, six, points), Error);
 }
 
 }  // namespace

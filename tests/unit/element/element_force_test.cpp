@@ -347,6 +347,36 @@ TEST(ElementForce, TetrahedraAndHexahedraHoldTogether) {
   EXPECT_EQ(elements.first_inverted(x), kNone);
 }
 
+TEST(ElementForce, LeavesOutBlocksThatHaveNotMoved) {
+  const Box box{16, 16, 4, 16e-3, 16e-3, 4e-3};
+  for (const Formulation formulation : {Formulation::one_point, Formulation::full}) {
+    const Model model = model_of(box_mesh(box), formulation);
+    const Positions& at_rest = model.mesh.coordinates;
+    ElementForce all(model), moved(model);
+    const auto forces = [&](ElementForce& elements, const Positions& x, bool may_rest) {
+      Positions f(x.size(), 0.0);
+      elements.add_force(x, f, 0, Threads(2),
+                         may_rest ? std::span<const double>(at_rest) : std::span<const double>());
+      return f;
+    };
+    EXPECT_EQ(forces(moved, at_rest, true), Positions(at_rest.size(), 0.0)) << "to the bit";
+    Positions x = at_rest;
+    x[2] += 1e-6;
+    const Positions expected = forces(all, x, false), found = forces(moved, x, true);
+    const double size = *std::max_element(expected.begin(), expected.end());
+    EXPECT_GT(size, 1e-3);
+    Index still = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      EXPECT_NEAR(found[i], expected[i], 1e-9 * size);
+      still += found[i] == 0;
+    }
+    EXPECT_GT(still, static_cast<Index>(x.size() / 2)) << "far away nothing was done";
+    for (double& value : x) value *= 1.0001;
+    EXPECT_EQ(forces(moved, x, true), forces(all, x, false)) << "to the bit";
+    EXPECT_EQ(forces(moved, at_rest, true), forces(all, at_rest, false)) << "who is awake stays so";
+  }
+}
+
 TEST(ElementForce, NamesTheInvertedTetrahedron) {
   Mesh mesh = cut_into_tetrahedra(box_mesh({2, 1, 1, 2, 1, 1}));
   std::swap(mesh.connectivity[4 * 7], mesh.connectivity[4 * 7 + 1]);
