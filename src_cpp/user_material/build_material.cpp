@@ -193,10 +193,10 @@ bool can_write(const fs::path& folder) {
 }
 
 fs::path cache_folder(const fs::path& source) {
-  const fs::path beside = source.parent_path() / ".cdfp";
+  fs::path beside = source.parent_path() / ".cdfp";
   if (can_write(beside)) return beside;
   const std::string home = environment_or("HOME", "/tmp");
-  const fs::path own = fs::path(environment_or("XDG_CACHE_HOME", (home + "/.cache").c_str())) / "cdfp";
+  fs::path own = fs::path(environment_or("XDG_CACHE_HOME", (home + "/.cache").c_str())) / "cdfp";
   if (can_write(own)) return own;
   throw Error(Status::io,
               "there is no place for the library of '" + source.string() + "': neither " + beside.string() +
