@@ -3,6 +3,7 @@
 
 #include "c_gate.hpp"
 #include "cdfp/material_library.hpp"
+#include "scene/scene.hpp"
 
 using namespace cdfp;
 using namespace cdfp::gate;
@@ -107,7 +108,7 @@ int32_t cdfp_model_set_state_name(cdfp_model* model, const char* material, int32
     if (!law) refuse("there is no user's material '" + wanted + "'; add it first");
     need_number(state, law->states, "state");
     for (auto k = static_cast<std::int32_t>(law->state_names.size()); k <= state; ++k) {
-      law->state_names.push_back("state_" + std::to_string(k + 1));
+      law->state_names.push_back(state_name(*law, k));
     }
     law->state_names[static_cast<std::size_t>(state)] = text(name, "name");
   });

@@ -573,10 +573,7 @@ void Simulation::Stages::add_user_fields(Frame& f) const {
     if (!law) continue;
     deletes = deletes || law->deletion_state >= 0;
     for (int k = 0; k < law->states; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      std::vector<double>& values =
-          field(at < law->state_names.size() ? law->state_names[at] : "state_" + std::to_string(k + 1),
-                std::numeric_limits<double>::quiet_NaN());
+      std::vector<double>& values = field(state_name(*law, k), std::numeric_limits<double>::quiet_NaN());
       for (std::size_t e = 0; e < count; ++e) {
         if (model.mesh.parts[e] == static_cast<Index>(p))
           values[e] = elements.mean_state(static_cast<Index>(e), k);
@@ -586,11 +583,15 @@ void Simulation::Stages::add_user_fields(Frame& f) const {
   static constexpr std::tuple<const char*, int, int> kComponents[] = {
       {"stress_xx", 0, 0}, {"stress_yy", 1, 1}, {"stress_zz", 2, 2},
       {"stress_xy", 0, 1}, {"stress_yz", 1, 2}, {"stress_zx", 2, 0}};
-  for (const auto& [name, i, j] : kComponents) {
-    std::vector<double>& values = field(name, 0);
-    for (std::size_t e = 0; e < count; ++e)
-      values[e] = elements.stress(static_cast<Index>(e), nodes.position)(i, j);
-  }
+  const std::size_t first = f.fields.size();
+  for (const auto& component : kComponents) field(std::get<0>(component), 0);
+  threads.for_ranges(model.mesh.element_count(), 256, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t e = begin; e < end; ++e) {
+      const Mat3 s = elements.stress(static_cast<Index>(e), nodes.position);
+      std::size_t at = first;
+      for (const auto& [name, i, j] : kComponents) f.fields[at++].values[e] = s(i, j);
+    }
+  });
   if (!deletes) return;
   std::vector<double>& gone = field("deleted", 0);
   for (const Summary::Deleted& d : deleted) gone[static_cast<std::size_t>(d.element)] = 1;

@@ -43,7 +43,7 @@ Mesh tetrahedra(unsigned seed) {
 }
 
 struct Run {
-  double angle = 0;  ///< degrees, of the crack's end seen from the notch
+  double angle = 0;  ///< degrees, of the crack's centre seen from the notch
   double speed = 0;  ///< m/s, over the crack's second half
   double balance = 0;
   std::vector<CrackLine> cracks;
@@ -65,15 +65,17 @@ Run run(Mesh mesh) {
   Run r;
   r.cracks = cracks_of(s);
   r.balance = s.energies().balance();
-  double far = 0;
   const auto way = [](const CrackLine& c) {
     return c.damage >= 1 && c.a.y > 0 ? std::hypot(c.a.x - kNotch, c.a.y) : 0;
   };
+  double far = 0, x = 0, y = 0;
   for (const CrackLine& crack : r.cracks) {
-    if (way(crack) <= far) continue;
-    far = way(crack);
-    r.angle = std::atan2(crack.a.y, crack.a.x - kNotch) * 180 / std::numbers::pi;
+    if (way(crack) == 0) continue;
+    far = std::max(far, way(crack));
+    x += crack.a.x - kNotch;
+    y += crack.a.y;
   }
+  r.angle = std::atan2(y, x) * 180 / std::numbers::pi;
   double half = 1, end = 0;
   for (const CrackLine& crack : r.cracks) {
     if (way(crack) > 0.5 * far) half = std::min(half, crack.time);

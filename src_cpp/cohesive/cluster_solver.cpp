@@ -9,14 +9,9 @@ namespace cdfp {
 
 namespace {
 
-/// How long Newton's method goes on, after how many iterations a correction that does not help is halved, and
-/// how often.
-struct Patience {
-  int iterations, undamped, halvings;
-};
-constexpr Patience kUsual{30, 2, 6};
-/// Past the top of the softening a correction points far beyond the solution.
-constexpr Patience kGreat{40, 0, 20};
+constexpr int kIterations = 30;
+constexpr int kUndamped = 2;  ///< iterations before a correction that does not help is halved
+constexpr int kFlowSteps = 400;
 constexpr double kSoftened =
     0.01;  ///< of the stiffness, for good, where even a slow approach does not settle
 
@@ -96,8 +91,8 @@ double ClusterSolver::evaluate() {
   return size;
 }
 
-/// One Newton correction of `relative_` from the residuals and the stiffness.
-void ClusterSolver::correct() {
+/// One correction of `relative_` from the residuals and the stiffness: Newton's without `drag`.
+void ClusterSolver::correct(double drag) {
   const int n = static_cast<int>(nodes.size());
   const int columns = 3 * (n - 1);
   matrix_.resize(columns * columns + columns);
@@ -110,7 +105,7 @@ void ClusterSolver::correct() {
       const double* own_row = &stiffness_[(3 * a + i) * columns];
       const double* first_row = &stiffness_[i * columns];
       for (int j = 0; j < columns; ++j) matrix_[row * columns + j] = own * own_row[j] - first * first_row[j];
-      matrix_[row * columns + row] += 1;
+      matrix_[row * columns + row] += 1 + drag;
       right[row] = residual_[a][i];
     }
   }
@@ -127,16 +122,14 @@ void ClusterSolver::correct() {
   }
 }
 
-template <class Patience>
-bool ClusterSolver::iterate(double tolerance, const Patience& patience) {
+bool ClusterSolver::iterate(double tolerance) {
   double previous = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < patience.iterations; ++i) {
+  for (int i = 0; i < kIterations; ++i) {
     // The first solution often stands: its slope is only asked for if it does not.
     double size = i == 1 ? evaluate<false>() : evaluate<true>();
     if (size <= tolerance) return true;
     if (i == 1) size = evaluate<true>();
-    for (int halvings = 0; i >= patience.undamped && size >= previous && halvings < patience.halvings;
-         ++halvings) {
+    for (int halvings = 0; i >= kUndamped && size >= previous && halvings < 6; ++halvings) {
       for (std::size_t a = 1; a < nodes.size(); ++a) relative_[a] = 0.5 * (relative_[a] + before_[a]);
       size = evaluate<true>();
       if (size <= tolerance) return true;
@@ -148,11 +141,25 @@ bool ClusterSolver::iterate(double tolerance, const Patience& patience) {
   return evaluate<true>() <= tolerance;
 }
 
-void ClusterSolver::start(double way) {
-  for (std::size_t a = 1; a < nodes.size(); ++a) {
-    const Vec3 behind = nodes[a].behind - nodes[0].behind, free = nodes[a].free - nodes[0].free;
-    relative_[a] = behind + way * (free - behind);
+void ClusterSolver::start() {
+  for (std::size_t a = 1; a < nodes.size(); ++a) relative_[a] = nodes[a].behind - nodes[0].behind;
+}
+
+/// Follows d relative / d tau = -residual by implicit steps (pseudo-transient continuation): where the
+/// traction falls faster than inertia gives way, Newton's method points anywhere, but the flow goes on to
+/// where the points have opened.
+bool ClusterSolver::flow(double tolerance) {
+  start();
+  double drag = 1;
+  double size = evaluate<true>();
+  for (int i = 0; i < kFlowSteps; ++i) {
+    if (size <= tolerance) return true;
+    if (!std::isfinite(size)) return false;
+    correct(drag);
+    const double previous = std::exchange(size, evaluate<true>());
+    drag = std::clamp(size < previous ? 0.5 * drag : 3 * drag, 1e-6, 1e3);
   }
+  return size <= tolerance;
 }
 
 /// Softer springs first, then step by step the true ones.
@@ -160,14 +167,14 @@ bool ClusterSolver::approach(double tolerance) {
   ++approached;
   stiff_.clear();
   for (const Point& p : points) stiff_.push_back(p.increment);
-  start(0);
+  start();
   bool settled = false;
   for (const double share : {0.01, 0.05, 0.2, 1.0}) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       points[i].increment = stiff_[i];
       if (share < 1) points[i].increment.soften(share);
     }
-    settled = iterate(tolerance, kUsual);
+    settled = iterate(tolerance);
   }
   return settled;
 }
@@ -183,23 +190,18 @@ void ClusterSolver::solve(double step, double share) {
   for (const Point& p : points) reach = std::min(reach, p.increment.softening.reach);
   const double tolerance = share * reach;
 
-  start(0);
-  bool settled = iterate(tolerance, kUsual);
+  start();
+  bool settled = iterate(tolerance);
   if (!settled) settled = approach(tolerance);
-  // A point that opens past its reach in one step has a solution far from where it was.
-  for (const double way : {0.0, 1.0, 0.5}) {
-    if (settled) break;
-    start(way);
-    settled = iterate(tolerance, kGreat);
-  }
+  if (!settled) settled = flow(tolerance);
   if (!settled) {
     ++softened;
     for (Point& p : points) p.increment.soften(kSoftened);
-    settled = iterate(tolerance, kUsual);
+    settled = iterate(tolerance);
   }
   if (!settled) {
     ++fixed;
-    start(0);
+    start();
     for (Point& p : points) p.increment.freeze(opening(p));
     evaluate<true>();
     correct();

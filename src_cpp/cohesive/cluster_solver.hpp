@@ -45,14 +45,13 @@ class ClusterSolver {
   std::vector<std::int32_t> broke;  ///< for the caller
 
  private:
-  template <class Patience>
-  bool iterate(double tolerance, const Patience& patience);
+  bool iterate(double tolerance);
+  bool flow(double tolerance);
   bool approach(double tolerance);
   template <bool Sloped>
   double evaluate();
-  void correct();
-  /// From rest against each other, 0, to free flight, 1.
-  void start(double way);
+  void correct(double drag = 0);
+  void start();
   Vec3 opening(const Point& p) const;
 
   double half_ = 0;

@@ -11,6 +11,7 @@
 #include "cdfp/laminated_plate.hpp"
 #include "cdfp/material_library.hpp"
 #include "driver/toml_table.hpp"
+#include "scene/scene.hpp"
 
 namespace cdfp {
 
@@ -89,10 +90,8 @@ int read_deletion_state(TomlTable& t, const UserMaterial& material) {
   std::string name;
   t.read("delete_by", name);
   if (!t.has("delete_by")) return -1;
-  std::vector<std::string> names = material.state_names;
-  for (int k = static_cast<int>(names.size()); k < material.states; ++k) {
-    names.push_back("state_" + std::to_string(k + 1));
-  }
+  std::vector<std::string> names;
+  for (int k = 0; k < material.states; ++k) names.push_back(state_name(material, k));
   t.check_name("delete_by", name, names, "state");
   return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
 }

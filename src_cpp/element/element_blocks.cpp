@@ -250,8 +250,8 @@ void ElementBlocks::sort_into_groups(const Model& model, const Threads& threads)
 void ElementBlocks::start_user_law(BlockGroup& group, const Mesh& mesh) {
   std::vector<UserPoints::Element> elements;
   for (const Index e : group.elements) {
-    UserPoints::Element element{e, corner_masses[e] * group.corners() / group.plan.constants.density,
-                                Mat3::identity()};
+    const double volume = corner_masses[e] * group.corners() / group.plan.constants.density;
+    UserPoints::Element element{e, std::cbrt(volume), Mat3::identity()};
     if (group.corners() == 8) {
       const Eigen::Matrix3d frame = hexahedron_geometry(corners_of<Corners>(mesh, first_corner[e])).frame;
       for (int i = 0; i < 9; ++i) element.axes(i / 3, i % 3) = frame(i / 3, i % 3);

@@ -162,11 +162,21 @@ struct SomePoints {
         bytes(sizeof(double) * static_cast<std::size_t>(points - start < kWidth ? points - start : kWidth)) {}
   CDFP_INLINE Pack load(const double* array, int component) const {
     Pack a(1.0);
-    std::memcpy(&a, array + component * count + first, bytes);
+    const double* from = array + component * count + first;
+    if (bytes == sizeof a) [[likely]] {
+      std::memcpy(&a, from, sizeof a);
+    } else {
+      std::memcpy(&a, from, bytes);
+    }
     return a;
   }
   CDFP_INLINE void store(double* array, int component, Pack a) const {
-    std::memcpy(array + component * count + first, &a, bytes);
+    double* to = array + component * count + first;
+    if (bytes == sizeof a) [[likely]] {
+      std::memcpy(to, &a, sizeof a);
+    } else {
+      std::memcpy(to, &a, bytes);
+    }
   }
   /// In the order 11 22 33 12 23 31.
   CDFP_INLINE Symmetric<Pack> load_symmetric(const double* array) const {

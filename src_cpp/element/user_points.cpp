@@ -195,7 +195,8 @@ void UserPoints::check_shape(const Scratch& scratch, std::size_t block, int poin
   }
 }
 
-void UserPoints::place(Scratch& scratch, std::size_t block, int point, const CornerOf& corner_of) const {
+template <class Corner>
+void UserPoints::place(Scratch& scratch, std::size_t block, int point, Corner&& corner_of) const {
   const double at = points_ > 1 ? 1 / std::sqrt(3.0) : 0;
   const double place[3] = {point & 1 ? at : -at, point & 2 ? at : -at, point & 4 ? at : -at};
   static constexpr int kSigns[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
@@ -210,7 +211,7 @@ void UserPoints::place(Scratch& scratch, std::size_t block, int point, const Cor
     Vec3 x;
     for (int c = 0; c < corners_; ++c) x += weight[c] * Vec3::load(corner_of(slot, c));
     for (int d = 0; d < 3; ++d) scratch.at(point, Scratch::kPosition + d)[i] = x[d];
-    scratch.at(point, Scratch::kLength)[i] = std::cbrt(elements_[slot].volume);
+    scratch.at(point, Scratch::kLength)[i] = elements_[slot].length;
   }
 }
 
@@ -277,8 +278,8 @@ void UserPoints::call(Scratch& scratch, std::size_t block, int point, double tim
 
 UserPoints::Moduli UserPoints::start(const CornerOf& corner_of) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Element& e : elements_) least = std::min(least, e.volume);
-  const double step = std::cbrt(least) / kSoundSpeed;
+  for (const Element& e : elements_) least = std::min(least, e.length);
+  const double step = least / kSoundSpeed;
   double bulk = 0, shear = 0;
   const double trace = kTinyStrain[0] + kTinyStrain[1] + kTinyStrain[2];
   double deviator[6];
@@ -398,7 +399,7 @@ void UserPoints::advance_block(const BlockKernel& kernel, std::size_t block, dou
   }
   const Lanes* frames = &frames_[block * kRows * 9];
   kernel.deform(input, frames, arrays.data());
-  const CornerOf corner_of = [&](std::size_t slot, int corner) {
+  const auto corner_of = [&](std::size_t slot, int corner) {
     const std::size_t lane = slot % kBlock;
     return input.position + input.offsets[(lane / kLanes * static_cast<std::size_t>(corners_) +
                                            static_cast<std::size_t>(corner)) *

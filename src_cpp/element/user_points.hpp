@@ -23,7 +23,7 @@ class UserPoints {
   /// An undeformed element, in the order of the group's slots.
   struct Element {
     Index number;
-    double volume;  ///< m3
+    double length;  ///< m: cube root of its volume
     Mat3 axes;      ///< rows: those that its formulation uses
   };
   /// Where a corner of the element in a slot lies now.
@@ -70,7 +70,8 @@ class UserPoints {
   void advance_block(const BlockKernel& kernel, std::size_t block, double time, double step,
                      const BlockInput& input, Lanes* state);
   void call(Scratch& scratch, std::size_t block, int point, double time, double step, bool first);
-  void place(Scratch& scratch, std::size_t block, int point, const CornerOf& corner_of) const;
+  template <class Corner>
+  void place(Scratch& scratch, std::size_t block, int point, Corner&& corner_of) const;
   void freeze_dead(Scratch& scratch, std::size_t block, int point);
   void bury_dead(std::size_t block, int point);
   void list_deleted(std::size_t block, Lanes* state);

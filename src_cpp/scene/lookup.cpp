@@ -60,6 +60,11 @@ std::vector<const Part*> parts_in_order(const Model& model) {
   return parts;
 }
 
+std::string state_name(const UserMaterial& law, int state) {
+  const auto at = static_cast<std::size_t>(state);
+  return at < law.state_names.size() ? law.state_names[at] : "state_" + std::to_string(state + 1);
+}
+
 bool is_rigid(const Model& model, const Part& part) {
   return std::holds_alternative<RigidMaterial>(material(model, part.material).law);
 }

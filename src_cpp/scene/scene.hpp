@@ -18,6 +18,9 @@ const CohesiveLaw& cohesive_law(const Model& model, const std::string& name);
 /// The entry of `model.parts` for each part of the mesh. Throws if one is missing, unknown or given twice.
 std::vector<const Part*> parts_in_order(const Model& model);
 
+/// What output calls a state (from 0) of a user's material.
+std::string state_name(const UserMaterial& law, int state);
+
 bool is_rigid(const Model& model, const Part& part);
 
 /// Where each element's corners start in `mesh.connectivity`.

@@ -81,6 +81,14 @@ std::string environment_or(const char* variable, const char* otherwise) {
   return value && *value ? value : otherwise;
 }
 
+/// The compiler, which may come with options, and its arguments.
+Words command(const char* variable, const char* otherwise, const Words& arguments) {
+  std::istringstream stream(environment_or(variable, otherwise));
+  Words words{std::istream_iterator<std::string>(stream), {}};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return words;
+}
+
 bool has_directives(const std::string& text) {
   static const std::regex directive("(^|\n)#");
   return std::regex_search(text, directive);
@@ -91,26 +99,14 @@ Words command_for(Language language, const std::string& text, const BuildOptions
   const std::string include = include_folder().string();
   const std::string folder =
       include + (options.single_precision ? "/cdfp/vumat/single" : "/cdfp/vumat/double");
-  if (language == Language::c) {
-    return {environment_or("CC", "cc"), "-O2", "-fPIC", "-shared", "-I", include};
-  }
+  if (language == Language::c) return command("CC", "cc", {"-O2", "-fPIC", "-shared", "-I", include});
   if (language == Language::cpp) {
-    return {environment_or("CXX", "c++"), "-std=c++20", "-O2", "-fPIC", "-shared", "-I", include};
+    return command("CXX", "c++", {"-std=c++20", "-O2", "-fPIC", "-shared", "-I", include});
   }
-  Words words = {environment_or("FC", "gfortran"),
-                 "-O2",
-                 "-fPIC",
-                 "-shared",
-                 "-w",
-                 "-std=legacy",
-                 "-fdec",
-                 "-fcray-pointer",
-                 "-frecursive",
-                 "-fallow-argument-mismatch",
-                 "-fno-range-check",
-                 language == Language::fixed_fortran ? "-ffixed-form" : "-ffree-form",
-                 "-I",
-                 folder};
+  Words words = command("FC", "gfortran",
+                        {"-O2", "-fPIC", "-shared", "-w", "-std=legacy", "-fdec", "-fcray-pointer",
+                         "-frecursive", "-fallow-argument-mismatch", "-fno-range-check",
+                         language == Language::fixed_fortran ? "-ffixed-form" : "-ffree-form", "-I", folder});
   if (!options.single_precision) words.insert(words.end(), {"-fdefault-real-8", "-fdefault-double-8"});
   if (has_directives(text)) words.emplace_back("-cpp");
   for (const char* stop :
@@ -197,10 +193,10 @@ bool can_write(const fs::path& folder) {
 }
 
 fs::path cache_folder(const fs::path& source) {
-  const fs::path beside = source.parent_path() / ".cdfp";
+  fs::path beside = source.parent_path() / ".cdfp";
   if (can_write(beside)) return beside;
   const std::string home = environment_or("HOME", "/tmp");
-  const fs::path own = fs::path(environment_or("XDG_CACHE_HOME", (home + "/.cache").c_str())) / "cdfp";
+  fs::path own = fs::path(environment_or("XDG_CACHE_HOME", (home + "/.cache").c_str())) / "cdfp";
   if (can_write(own)) return own;
   throw Error(Status::io,
               "there is no place for the library of '" + source.string() + "': neither " + beside.string() +

@@ -263,6 +263,7 @@ class Vumat {
 }  // namespace
 
 void load_vumat(const std::string& library, const VumatOptions& options, UserMaterial& material) {
+  keep_vumat_utilities();
   const auto vumat = std::make_shared<Vumat>(library, options);
   material.callback = [vumat, safe = material.thread_safe](const MaterialPoints& p) { (*vumat)(p, safe); };
   material.warnings = [vumat] { return vumat->said(); };

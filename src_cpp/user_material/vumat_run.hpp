@@ -76,4 +76,7 @@ bool run_vumat(VumatRun& run, void (*work)(void*), void* data);
 /// Back to `run_vumat`; frames in between are dropped.
 [[noreturn]] void leave_vumat(VumatRun& run);
 
+/// The utility routines are called by libraries that come later; this has them linked into static programs.
+void keep_vumat_utilities();
+
 }  // namespace cdfp

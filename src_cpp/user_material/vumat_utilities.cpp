@@ -7,13 +7,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <string>
 #include <string_view>
 
 #include "user_material/vumat_run.hpp"
 
 using cdfp::vumat_run;
+namespace cdfp {
+void keep_vumat_utilities() {}
+}  // namespace cdfp
+
 using cdfp::VumatHost;
 using cdfp::VumatRun;
 
@@ -29,8 +32,8 @@ std::string_view trimmed(const char* text, std::size_t length) {
 
 void give_text(const std::string& from, char* text, std::int32_t* count, std::size_t length) {
   const std::size_t n = std::min(from.size(), length);
-  std::memcpy(text, from.data(), n);
-  std::memset(text + n, ' ', length - n);
+  std::copy_n(from.begin(), n, text);
+  std::fill_n(text + n, length - n, ' ');
   *count = static_cast<std::int32_t>(n);
 }
 

@@ -249,8 +249,7 @@ TEST_F(Fields, Settings) {
   EXPECT_EQ(gravity, (Vector{1, 2, 3}));
   EXPECT_EQ(threads, 10);
   {
-    const auto& [surfaces, cell, buffer, penalty, friction, depth, warned, edge_edge, adaptive] = contact;
-    EXPECT_EQ(warned, 6);
+    const auto& [surfaces, cell, buffer, penalty, friction, depth, warning, edge_edge, adaptive] = contact;
     EXPECT_EQ(surfaces, std::vector<std::string>{"faces"});
     EXPECT_EQ((Vector{cell, buffer, penalty}), (Vector{1, 2, 3}));
     EXPECT_EQ(friction, 4);

@@ -110,10 +110,10 @@ std::vector<double> pull_apart(int steps) {
 }
 
 TEST(Handles, ServicesInManyThreadsDoWhatOneDoes) {
-  const std::vector<double> alone = pull_apart(400);
+  const std::vector<double> alone = pull_apart(600);
   std::vector<std::vector<double>> each(4);
   std::vector<std::thread> threads;
-  for (std::vector<double>& result : each) threads.emplace_back([&result] { result = pull_apart(400); });
+  for (std::vector<double>& result : each) threads.emplace_back([&result] { result = pull_apart(600); });
   for (std::thread& thread : threads) thread.join();
   for (const std::vector<double>& result : each) EXPECT_EQ(result, alone);
 }

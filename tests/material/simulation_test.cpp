@@ -138,6 +138,32 @@ TEST(UserMaterialSimulation, TornBarInOutput) {
   EXPECT_NE(contents(folder + "/results.h5").find("state_4"), std::string::npos);
 }
 
+/// A plate of elastic VUMAT that is torn cracks where and when the built-in law lets it.
+TEST(UserMaterialSimulation, CracksAsTheBuiltInLaw) {
+  std::vector<Index> counts;
+  std::vector<double> times;
+  for (const bool user : {false, true}) {
+    Model model = plate(ElasticMaterial{7850, 200e9, 0.3}, Formulation::full);
+    if (user) model.materials[0].law = elastic_vumat();
+    CohesiveLaw law;
+    law.name = "brittle";
+    law.strength = 150e6;
+    law.fracture_energy = 100;
+    model.cohesive_laws = {law};
+    model.parts[0].cohesive_law = "brittle";
+    model.prescribed_velocities.push_back({"plate_high_x", {true, false, false}, {}, {8}});
+    model.initial_velocities.clear();
+    Simulation simulation(std::move(model));
+    simulation.advance(250);
+    counts.push_back(simulation.cohesive_count());
+    times.push_back(simulation.summary().first_cracks.at(0).time_s);
+    EXPECT_NEAR(simulation.energies().balance(), 1, 2e-3);
+  }
+  EXPECT_GT(counts[0], 10);
+  EXPECT_NEAR(counts[1], counts[0], 0.1 * counts[0]);
+  EXPECT_NEAR(times[1], times[0], 0.02 * times[0]);
+}
+
 TEST(UserMaterialSimulation, AfterAFailureTheStateIsReadable) {
   UserMaterial material = elastic_vumat();
   const auto law = material.callback;

@@ -70,7 +70,8 @@ INSTANTIATE_TEST_SUITE_P(Elements, ThickBar,
                          testing::Values(ElementType::hexahedron, ElementType::tetrahedron));
 
 TEST_P(ThickBar, DissipatesTheLawsEnergyInMixedMode) {
-  // Pulled and wrung at once, at the step that the elements allow: the facets open and slide.
+  // Pulled and wrung at once: the facets open and slide. Bricks at the paper's step; at theirs, three times
+  // as long, node pairs that part in one step are solved for with softer springs, which costs per cents.
   Model model;
   const double h = 1e-3;
   scenes::add_box(model.mesh, "bar", {16, 4, 4}, {16 * h, 4 * h, 4 * h});
@@ -80,7 +81,7 @@ TEST_P(ThickBar, DissipatesTheLawsEnergyInMixedMode) {
   model.cohesive_laws = {glass_law()};
   // Along x apart, and the faster the farther from the middle; about x against one another.
   model.initial_velocities = {{"bar", {-16, 2 * h * 400, 0}, {2000, 0, 0, 0, 0, -400, 0, 400, 0}}};
-  model.time = {6e-6, 0, 0.9};
+  model.time = {6e-6, GetParam() == ElementType::tetrahedron ? 0 : 6e-8, 0.9};
   Simulation s(std::move(model));
   s.advance(100000);
   const Summary summary = s.summary();
@@ -98,10 +99,10 @@ TEST(Fracture, SymmetricPlateCracksSymmetrically) {
   model = scenes::with_part(std::move(model), "plate", {2500, 74e9, 0.2});
   model.parts[0].cohesive_law = "glass";
   model.cohesive_laws = {glass_law()};
-  model.initial_velocities = {{"plate", {}, {1500, 0, 0, 0, 900, 0, 0, 0, 0}}};
+  model.initial_velocities = {{"plate", {}, {1500, 0, 0, 0, 300, 0, 0, 0, 0}}};
   model.time = {2.5e-6, 0, 0.9};
   Simulation s(std::move(model));
-  s.advance(100000);
+  while (!s.finished() && s.broken_count() == 0) s.step();
   const Frame frame = s.frame();
   ASSERT_GT(frame.cracks.size(), 50u);
   const auto middle = [&](const CrackFacet& f) {
@@ -115,7 +116,7 @@ TEST(Fracture, SymmetricPlateCracksSymmetrically) {
   int damaged = 0;
   for (const CrackFacet& f : frame.cracks) {
     const std::array<double, 3> at = middle(f);
-    damaged += f.damage > 0.1;
+    damaged += f.damage > 0.01;
     for (const int axis : {0, 1}) {
       const auto image = std::find_if(frame.cracks.begin(), frame.cracks.end(), [&](const CrackFacet& g) {
         std::array<double, 3> x = middle(g);

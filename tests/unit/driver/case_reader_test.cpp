@@ -319,5 +319,32 @@ TEST(NearestWord, CountsLettersAndSwaps) {
   EXPECT_EQ(nearest_word("colour", words), "");
 }
 
+/// The case with another material for the interlayer.
+std::string with_interlayer(const std::string& keys) {
+  const std::string text = kCase;
+  const std::size_t begin = text.find("[materials.interlayer]"), end = text.find("[materials.", begin + 1);
+  return text.substr(0, begin) + "[materials.interlayer]\n" + keys + "\n" + text.substr(end);
+}
+
+TEST(CaseReader, TellsWhatIsWrongWithMaterialsFromOutside) {
+  const std::string vumat = "law = \"vumat\"\ndensity = 1000\n";
+  const std::string library = "law = \"library\"\ndensity = 1000\n";
+  expect_refused(with_interlayer(vumat), "takes either 'source' or 'library'");
+  expect_refused(with_interlayer(vumat + "source = \"a.f\"\nlibrary = \"a.so\""),
+                 "takes either 'source' or 'library'");
+  expect_refused(with_interlayer(vumat + "source = \"nowhere.f\""), "cannot read the source 'nowhere.f'");
+  expect_refused(with_interlayer(vumat + "source = \"nowhere.f\""), "plate.toml:");
+  expect_refused(with_interlayer(vumat + "library = \"nowhere.so\""), "there is no library 'nowhere.so'");
+  expect_refused(with_interlayer(library + "library = \"nowhere.so\"\nfunction = \"law\""),
+                 "there is no library 'nowhere.so'");
+  expect_refused(with_interlayer(vumat + "states = 2\nstate_names = [\"a\", \"b\", \"c\"]"),
+                 "'state_names' has 3 names; the law has 2 states");
+  expect_refused(with_interlayer(vumat + "states = 2\nstate_names = [\"strain\"]\ndelete_by = \"stat_2\""),
+                 "'state_2'");
+  expect_refused(with_interlayer(vumat + "youngs_modulus = 1e6"), "the key 'poissons_ratio' is missing");
+  expect_refused(with_interlayer("law = \"vumat\""), "the key 'density' is missing");
+  expect_refused(with_interlayer("law = \"vumatt\"\ndensity = 1000"), "'vumat'");
+}
+
 }  // namespace
 }  // namespace cdfp

@@ -100,6 +100,43 @@ TEST_F(Command, ChecksTheExamples) {
   EXPECT_NE(out().find("8448 elements"), std::string::npos) << out();
 }
 
+/// The example of users' materials in a copy of its folder, so that what is compiled stays apart.
+TEST_F(Command, RunsUsersMaterials) {
+  fs::copy(CDFP_EXAMPLES "/user_material", folder_ / "user_material");
+  const fs::path path = folder_ / "user_material" / "case.toml";
+  std::string text = contents(path);
+  for (const auto& [from, to] :
+       {std::pair<const char*, const char*>{"end = 60e-6", "end = 2e-6"},
+        std::pair<const char*, const char*>{"snapshot_times = [30e-6, 60e-6]", "snapshot_times = [2e-6]"}}) {
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, std::string(from).size(), to);
+  }
+  std::ofstream(path) << text;
+  ASSERT_EQ(run({"run", path, "--out", folder_ / "results"}), 0) << err();
+  EXPECT_NE(contents(folder_ / "results" / "snapshots" / "0000.vtu").find("plastic_strain"),
+            std::string::npos);
+  EXPECT_TRUE(fs::exists(folder_ / "user_material" / ".cdfp"));
+
+  std::ofstream(folder_ / "user_material" / "johnson_cook.f") << "      subroutine vumat(\n";
+  EXPECT_EQ(run({"check", path}), 1);
+  EXPECT_EQ(err().rfind("cdfp: error: " + path.string() + ":", 0), 0u) << err();
+  EXPECT_NE(err().find("johnson_cook.f:1:"), std::string::npos) << err();
+}
+
+TEST_F(Command, BuildsMaterials) {
+  const fs::path library = folder_ / "law.so";
+  EXPECT_EQ(run({"build-material", CDFP_EXAMPLES "/user_material/johnson_cook.f", "-o", library}), 0)
+      << err();
+  EXPECT_EQ(out(), library.string() + "\n");
+  EXPECT_TRUE(fs::exists(library));
+  EXPECT_EQ(run({"build-material", "--single", CDFP_EXAMPLES "/user_material/johnson_cook.f", "-o", library}),
+            0);
+  EXPECT_EQ(run({"build-material", folder_ / "nothing.f"}), 1);
+  EXPECT_NE(err().find("cannot read the source"), std::string::npos) << err();
+  EXPECT_EQ(run({"build-material"}), 2);
+}
+
 TEST_F(Command, EndsCleanlyWhenInterrupted) {
   const fs::path results = folder_ / "results";
   const fs::path path = case_with({{"end = 80e-6", "end = 1.0"},
