@@ -1,6 +1,5 @@
 /// Which candidates touch: a node goes to one face, edges meet edges (section 4.2, appendices E and F).
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -33,6 +32,14 @@ Vec3 at(const double* x, Index node) {
 
 }  // namespace
 
+Vec3 SurfaceContact::Stages::segment_normal(const double* x, Index segment) const {
+  const Index* c = surface.corners(segment);
+  const Vec3 a = at(x, c[0]), b = at(x, c[1]), d = at(x, c[2]);
+  const Vec3 n = c[3] == kNone ? cross(b - a, d - a) : cross(d - a, at(x, c[3]) - b);  // E.1: sum of corners
+  const double length = norm(n);
+  return length > 0 ? n / length : Vec3{};
+}
+
 double SurfaceContact::Stages::segment_radius(const double* x, Index segment) const {
   const Index* c = surface.corners(segment);
   const int count = c[3] == kNone ? 3 : 4;
@@ -53,27 +60,12 @@ void SurfaceContact::Stages::place_plane(const double* x, Index segment) {
     face.centre = (a + b + d) / 3;
   } else {
     const Vec3 e = at(x, c[3]);
-    n = cross(d - a, e - b);  // E.1: sum of corners
+    n = cross(d - a, e - b);
     face.centre = 0.25 * (a + b + d + e);
   }
   const double nn = dot(n, n);
   face.normal = nn > 0 ? n / std::sqrt(nn) : Vec3{};
   face.warp = std::abs(dot(face.normal, a - face.centre));
-}
-
-/// Placed by the thread that first asks for it in this step.
-const SurfaceContact::Stages::Plane& SurfaceContact::Stages::plane_now(const double* x, Index segment) {
-  const std::atomic_ref state(plane_stamp[segment]);
-  const std::int32_t placed = 2 * stamp + 1;
-  std::int32_t found = state.load(std::memory_order_acquire);
-  if (found == placed) return planes[segment];
-  if (found != placed - 1 && state.compare_exchange_strong(found, placed - 1, std::memory_order_acquire)) {
-    place_plane(x, segment);
-    state.store(placed, std::memory_order_release);
-  }
-  while (state.load(std::memory_order_acquire) != placed) {
-  }
-  return planes[segment];
 }
 
 FacePoint SurfaceContact::Stages::project(const double* x, Vec3 p, Index segment, double xi,
@@ -84,9 +76,9 @@ FacePoint SurfaceContact::Stages::project(const double* x, Vec3 p, Index segment
 }
 
 /// Mean of the unit normals of the node's own faces.
-Vec3 SurfaceContact::Stages::node_normal(const double* x, Index row) {
+Vec3 SurfaceContact::Stages::node_normal(const double* x, Index row) const {
   Vec3 sum;
-  surface.for_each_incident(row, [&](Index segment) { sum += plane_now(x, segment).normal; });
+  surface.for_each_incident(row, [&](Index segment) { sum += segment_normal(x, segment); });
   const double length = norm(sum);
   return length > 0 ? sum / length : Vec3{};
 }
@@ -126,7 +118,7 @@ void SurfaceContact::Stages::look_at_node(const double* x, Index active) {
   double best = std::numeric_limits<double>::infinity();
   double room = std::numeric_limits<double>::infinity();
   search.node_segments().for_each(row, [&](Index segment) {
-    const Plane& face = plane_now(x, segment);
+    const Plane& face = planes[segment];
     const Vec3 from_centre = p - face.centre;
     const double height = dot(face.normal, from_centre);
     const double above = height - face.warp;
@@ -179,7 +171,7 @@ void SurfaceContact::Stages::look_at_node(const double* x, Index active) {
 /// Appendix F, with the normal held inside both edges' cones of face normals: only then does the way out of
 /// the other body lead over the two edges. `room`: lowered to the travel before which the pair can't touch.
 bool SurfaceContact::Stages::edges_touch(const double* x, Index m, Index n, double& room,
-                                         TouchingPair* touch) {
+                                         TouchingPair* touch) const {
   const Index *ab = surface.ends(m), *cd = surface.ends(n);
   const Vec3 a = at(x, ab[0]), b = at(x, ab[1]), c = at(x, cd[0]), d = at(x, cd[1]);
   const Vec3 between = 0.5 * (a + b - c - d);
@@ -196,8 +188,8 @@ bool SurfaceContact::Stages::edges_touch(const double* x, Index m, Index n, doub
     return false;
   }
   const Surface::EdgeData &first = surface.edge_data(m), &second = surface.edge_data(n);
-  const Vec3 n1 = plane_now(x, first.segments[0]).normal, n2 = plane_now(x, first.segments[1]).normal;
-  const Vec3 n3 = plane_now(x, second.segments[0]).normal, n4 = plane_now(x, second.segments[1]).normal;
+  const Vec3 n1 = segment_normal(x, first.segments[0]), n2 = segment_normal(x, first.segments[1]);
+  const Vec3 n3 = segment_normal(x, second.segments[0]), n4 = segment_normal(x, second.segments[1]);
   const Vec3 normal = dot(crossing.normal, n3 + n4 - n1 - n2) < 0 ? -crossing.normal : crossing.normal;
   const double out_of_cone = std::max({dot(normal, n1), dot(normal, n2), -dot(normal, n3), -dot(normal, n4)});
   if (out_of_cone > kOutOfCone) {
@@ -255,6 +247,8 @@ void SurfaceContact::local_search(const Arrays& arrays, int threads) {
   const double* x = arrays.position.data();
 
   ++s.stamp;
+  const std::int64_t faces = static_cast<std::int64_t>(s.active_segments.size());
+  share_out(threads, faces, [&](std::int64_t i) { s.place_plane(x, s.active_segments[i]); });
   const std::int64_t nodes = static_cast<std::int64_t>(s.active_nodes.size());
   share_out(threads, nodes, [&](std::int64_t i) { s.look_at_node(x, static_cast<Index>(i)); });
   s.hit_nodes.clear();

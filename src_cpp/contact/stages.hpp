@@ -91,11 +91,10 @@ struct SurfaceContact::Stages {
   std::vector<std::uint8_t> has_pairs;   // by contact node
   std::vector<Index> active_nodes;       // with candidates
   std::vector<std::uint8_t> is_partner;  // by segment
+  std::vector<Index> active_segments;    // candidates of some node
   std::vector<Plane> planes;             // by segment
-  std::vector<std::int32_t>
-      plane_stamp;                // by segment: twice the step of its place, and one once that is there
-  std::vector<Hit> hits;          // by active node
-  std::vector<double> edge_wake;  // by edge
+  std::vector<Hit> hits;                 // by active node
+  std::vector<double> edge_wake;         // by edge
   std::vector<std::uint8_t> edge_has_pairs;
   std::vector<Index> active_edges;
   std::vector<std::array<Index, 4>> edge_hits;  // by active edge: partners, kNone after the last
@@ -121,14 +120,14 @@ struct SurfaceContact::Stages {
   void activate_node(const double* x, Index row);
   void activate_edge(Index edge);
 
+  Vec3 segment_normal(const double* x, Index segment) const;
   void place_plane(const double* x, Index segment);
-  const Plane& plane_now(const double* x, Index segment);
   double segment_radius(const double* x, Index segment) const;
   FacePoint project(const double* x, Vec3 p, Index segment, double xi = 0, double eta = 0) const;
-  Vec3 node_normal(const double* x, Index row);
+  Vec3 node_normal(const double* x, Index row) const;
   bool shares_element(Index row, Index segment) const;
   void look_at_node(const double* x, Index active);
-  bool edges_touch(const double* x, Index m, Index n, double& room, TouchingPair* touch);
+  bool edges_touch(const double* x, Index m, Index n, double& room, TouchingPair* touch) const;
   void look_at_edge(const double* x, Index active);
   void hand_over();
   BodyPair& body_pair(const TouchingPair& pair);

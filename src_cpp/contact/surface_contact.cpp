@@ -20,7 +20,6 @@ void SurfaceContact::Stages::grow_to_surface() {
   has_pairs.resize(surface.node_count(), 0);
   is_partner.resize(surface.segment_count(), 0);
   planes.resize(surface.segment_count());
-  plane_stamp.resize(surface.segment_count(), 0);
   if (settings.edge_edge) {
     edge_wake.resize(surface.edge_count(), 0);
     edge_has_pairs.resize(surface.edge_count(), 0);
@@ -36,6 +35,7 @@ void SurfaceContact::Stages::activate_node(const double* x, Index row) {
   search.node_segments().for_each(row, [&](Index segment) {
     if (is_partner[segment]) return;
     is_partner[segment] = 1;
+    active_segments.push_back(segment);
     planes[segment].radius = segment_radius(x, segment);
   });
   if (has_pairs[row]) return;
@@ -122,6 +122,7 @@ void SurfaceContact::regular_search(const Arrays& arrays, int threads) {
   std::fill(s.is_partner.begin(), s.is_partner.end(), 0);
   std::fill(s.edge_has_pairs.begin(), s.edge_has_pairs.end(), 0);
   s.active_nodes.clear();
+  s.active_segments.clear();
   s.active_edges.clear();
   for (Index row = 0; row < s.surface.node_count(); ++row) {
     if (!s.search.node_segments().empty(row)) s.activate_node(arrays.position.data(), row);
@@ -129,6 +130,7 @@ void SurfaceContact::regular_search(const Arrays& arrays, int threads) {
   for (Index edge = 0; edge < s.search.edge_edges().rows(); ++edge) {
     if (!s.search.edge_edges().empty(edge)) s.activate_edge(edge);
   }
+  std::sort(s.active_segments.begin(), s.active_segments.end());
   s.hits.resize(s.active_nodes.size());
   s.edge_hits.resize(s.active_edges.size());
 }
