@@ -43,6 +43,7 @@ constexpr double kPressedTurn = 0.01;
 /// A moment below this share of the facet's fracture energy waits until it has grown.
 constexpr double kLeastCouple = 1e-9;
 constexpr std::int64_t kGrain = 64;
+constexpr std::size_t kWorthwhile = 512;  ///< facets for which threads are woken
 
 struct Law {
   CohesiveLaw given;
@@ -580,22 +581,21 @@ void CohesiveZone::Points::add_force(const NodeArrays& nodes, double step, doubl
     const bool lost = point.broken() && facets[p / 4].broken && facets[p / 4].hand_over == 0;
     return lost ? NodePair{} : NodePair{point.upper, point.lower};
   });
-  work.resize(std::max<std::size_t>(work.size(), threads.count()));
+  const Threads awake = live.size() < kWorthwhile ? Threads(1) : threads;
+  work.resize(std::max<std::size_t>(work.size(), awake.count()));
 
-  threads.for_ranges(static_cast<std::int64_t>(live.size()), kGrain,
-                     [&](std::int64_t begin, std::int64_t end) {
-                       for (std::int64_t k = begin; k < end; ++k) turn(live[k], nodes);
-                     });
+  awake.for_ranges(static_cast<std::int64_t>(live.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k < end; ++k) turn(live[k], nodes);
+  });
   ask_users(nodes, step, time);
   balance_couples(nodes);
   const std::span<const Clusters::Cluster> all = clusters.all();
-  threads.for_ranges(static_cast<std::int64_t>(all.size()), kGrain,
-                     [&](std::int64_t begin, std::int64_t end) {
-                       ClusterSolver& w = work[omp_get_thread_num()];
-                       for (std::int64_t k = begin; k < end; ++k) {
-                         if (all[k].slots > 0) solve_cluster(all[k], nodes, step, w);
-                       }
-                     });
+  awake.for_ranges(static_cast<std::int64_t>(all.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    ClusterSolver& w = work[omp_get_thread_num()];
+    for (std::int64_t k = begin; k < end; ++k) {
+      if (all[k].slots > 0) solve_cluster(all[k], nodes, step, w);
+    }
+  });
   book_couples(nodes, step);
   find_couples();
   mark_broken(time);
