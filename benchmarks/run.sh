@@ -18,5 +18,5 @@ if ! { cmake -S . -B build -DCMAKE_BUILD_TYPE=Release -DCDFP_BENCHMARKS=ON &&
   exit 1
 fi
 rm -f "$log"
-export GOMP_SPINCOUNT="${GOMP_SPINCOUNT:-2000}"  # spinning threads would slow one another beside other work
+export GOMP_SPINCOUNT="${GOMP_SPINCOUNT:-20000}"  # spinning threads would slow one another beside other work
 exec "build/bin/bench_$name" "$@"

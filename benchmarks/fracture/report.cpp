@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "support/picture.hpp"
+
 namespace bench {
 
 using namespace cdfp;
@@ -32,10 +34,7 @@ void report(const std::string& what, double figure, double low, double high, con
 }
 
 void chart(const std::string& name, const Chart& c) {
-  std::filesystem::create_directories(kPictures);
-  write_png(kPictures / (name + ".png"), 1500, 900, [&](Canvas& canvas) {
-    draw_chart(canvas, {0, 60, 1460, 800}, c);
-  });
+  save_chart(kPictures / (name + ".png"), c);
 }
 
 std::vector<CrackLine> cracks_of(const Simulation& s) {

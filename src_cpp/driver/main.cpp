@@ -55,7 +55,7 @@ int build(const std::string& source, const std::string& output, bool single) {
 /// one; on a free machine the short spin costs nothing measurable. A user's own choice stands.
 void start_with_short_spin(char** arguments) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
-  if (setenv("GOMP_SPINCOUNT", "2000", 1) == 0) execv("/proc/self/exe", arguments);
+  if (setenv("GOMP_SPINCOUNT", "20000", 1) == 0) execv("/proc/self/exe", arguments);
 }
 
 }  // namespace
