@@ -564,7 +564,8 @@ void Simulation::Stages::add_user_fields(Frame& f) const {
     for (ElementField& known : f.fields) {
       if (known.name == name) return known.values;
     }
-    return f.fields.emplace_back(name, std::vector<double>(count, start)).values;
+    f.fields.push_back({name, std::vector<double>(count, start)});
+    return f.fields.back().values;
   };
   const std::vector<const Part*> parts = parts_in_order(model);
   bool deletes = false;

@@ -4,6 +4,7 @@
 /// caller's `real(c_double) :: x(3, n)`). Units are SI: m, kg, s, N, Pa, J.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 
 namespace cdfp {

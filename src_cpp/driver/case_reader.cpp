@@ -91,6 +91,7 @@ int read_deletion_state(TomlTable& t, const UserMaterial& material) {
   t.read("delete_by", name);
   if (!t.has("delete_by")) return -1;
   std::vector<std::string> names;
+  names.reserve(static_cast<std::size_t>(material.states));
   for (int k = 0; k < material.states; ++k) names.push_back(state_name(material, k));
   t.check_name("delete_by", name, names, "state");
   return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());

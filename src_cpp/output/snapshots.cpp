@@ -32,7 +32,7 @@ void write_bulk(const Frame& frame, const std::filesystem::path& path) {
   file.cell_array("part", frame.parts);
   if (frame.von_mises.size() == elements) file.cell_array("von_mises", frame.von_mises);
   if (frame.max_principal.size() == elements) file.cell_array("max_principal", frame.max_principal);
-  for (const ElementField& field : frame.fields) file.cell_array(field.name.c_str(), field.values);
+  for (const ElementField& field : frame.fields) file.cell_array(field.name, field.values);
   file.write(path);
 }
 

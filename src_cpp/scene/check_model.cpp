@@ -28,9 +28,9 @@ void check_state_name(const std::string& name, const std::string& where) {
     return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
   });
   require(plain, where + ": state name '" + name + "' may hold letters, digits, '_', '-' and '.' only");
-  for (const char* taken : {"part", "velocity", "von_mises", "max_principal", "deleted"}) {
-    require(name != taken, where + ": state name '" + name + "' is an output's already; take another");
-  }
+  const auto names = {"part", "velocity", "von_mises", "max_principal", "deleted"};
+  require(std::find(names.begin(), names.end(), name) == names.end(),
+          where + ": state name '" + name + "' is an output's already; take another");
   require(!name.starts_with("stress_"), where + ": state names that start with 'stress_' are the stress's");
 }
 
