@@ -154,11 +154,15 @@ contains
     real(c_double), contiguous, intent(in), optional :: strength_shares(:)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
+    real(c_double), allocatable :: shares(:)  ! one that is not allocated is an absent argument
     integer(c_int32_t) :: chosen
     logical :: good
 
     good = size(coordinates, 1) == 3
-    if (present(strength_shares)) good = good .and. size(strength_shares) == size(parts)
+    if (present(strength_shares)) then
+      good = good .and. size(strength_shares) == size(parts)
+      shares = strength_shares
+    end if
     if (.not. good) then
       call refuse('set_parts: coordinates must be of shape (3, nodes), with one share for each element', stat, &
                   errmsg)
@@ -170,7 +174,7 @@ contains
                                         size(coordinates, 2, c_int64_t), coordinates, &
                                         size(parts, kind=c_int64_t), parts - 1_c_int32_t, &
                                         size(law_of_part, kind=c_int64_t), law_of_part - 1_c_int32_t, &
-                                        chosen, strength_shares), stat, errmsg)
+                                        chosen, shares), stat, errmsg)
   end subroutine
 
   !> Facets between two elements of one part that reach their strength, in ascending order. `stress` (6, bulk

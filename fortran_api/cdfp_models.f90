@@ -233,13 +233,15 @@ contains
     type(c_ptr), intent(in), optional :: user_data
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
+    type(cdfp_user_material) :: material
     type(c_ptr) :: user
 
     user = c_null_ptr
     if (present(user_data)) user = user_data
-    call report(cdfp_model_add_user_material(this%handle%address, c_text(name), &
-      filled(density, states, properties, youngs_modulus, poissons_ratio, deletion_state, thread_safe), &
-      callback, user), stat, errmsg)
+    material = filled(density, states, youngs_modulus, poissons_ratio, deletion_state, thread_safe)
+    if (present(properties)) call give(material, properties)
+    call report(cdfp_model_add_user_material(this%handle%address, c_text(name), material, callback, user), stat, &
+                errmsg)
   end subroutine
 
   !> The same by a function of a shared library.
@@ -254,10 +256,12 @@ contains
     logical, intent(in), optional :: thread_safe
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
+    type(cdfp_user_material) :: material
 
-    call report(cdfp_model_add_library_material(this%handle%address, c_text(name), &
-      filled(density, states, properties, youngs_modulus, poissons_ratio, deletion_state, thread_safe), &
-      c_text(library), c_text(function)), stat, errmsg)
+    material = filled(density, states, youngs_modulus, poissons_ratio, deletion_state, thread_safe)
+    if (present(properties)) call give(material, properties)
+    call report(cdfp_model_add_library_material(this%handle%address, c_text(name), material, c_text(library), &
+                                                c_text(function)), stat, errmsg)
   end subroutine
 
   !> The same by the subroutine VUMAT of a shared library: see `cdfp_build_material`. `temperature` and `fields`
@@ -273,6 +277,7 @@ contains
     logical, intent(in), optional :: thread_safe, single_precision
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
+    type(cdfp_user_material) :: material
     type(cdfp_vumat) :: vumat
     integer(c_int32_t) :: status
 
@@ -283,10 +288,10 @@ contains
       vumat%fields = c_loc(fields)
       vumat%field_count = size(fields, kind=c_int64_t)
     end if
-    status = cdfp_model_add_vumat_material(this%handle%address, c_text(name), &
-      filled(density, states, properties, youngs_modulus, poissons_ratio, deletion_state, thread_safe), &
-      vumat, c_text(library))
-    call report(status, stat, errmsg)
+    material = filled(density, states, youngs_modulus, poissons_ratio, deletion_state, thread_safe)
+    if (present(properties)) call give(material, properties)
+    call report(cdfp_model_add_vumat_material(this%handle%address, c_text(name), material, vumat, &
+                                              c_text(library)), stat, errmsg)
   end subroutine
 
   !> Names a state of a user's material in output.
@@ -301,11 +306,9 @@ contains
                                           c_text(name)), stat, errmsg)
   end subroutine
 
-  function filled(density, states, properties, youngs_modulus, poissons_ratio, deletion_state, thread_safe) &
-      result(material)
+  function filled(density, states, youngs_modulus, poissons_ratio, deletion_state, thread_safe) result(material)
     real(c_double), intent(in) :: density
     integer, intent(in), optional :: states, deletion_state
-    real(c_double), target, contiguous, intent(in), optional :: properties(:)
     real(c_double), intent(in), optional :: youngs_modulus, poissons_ratio
     logical, intent(in), optional :: thread_safe
     type(cdfp_user_material) :: material
@@ -315,14 +318,19 @@ contains
     material%density = density
     material%youngs_modulus = value_or(material%youngs_modulus, youngs_modulus)
     material%poissons_ratio = value_or(material%poissons_ratio, poissons_ratio)
-    if (present(properties)) then
-      material%properties = c_loc(properties)
-      material%property_count = size(properties, kind=c_int64_t)
-    end if
     if (present(states)) material%states = int(states, c_int32_t)
     if (present(deletion_state)) material%deletion_state = int(deletion_state - 1, c_int32_t)
     if (present(thread_safe)) material%thread_safe = merge(1_c_int32_t, 0_c_int32_t, thread_safe)
   end function
+
+  !> Not in `filled`: an absent array passed on is no absent one to gfortran's sanitizer.
+  subroutine give(material, properties)
+    type(cdfp_user_material), intent(inout) :: material
+    real(c_double), target, contiguous, intent(in) :: properties(:)
+
+    material%properties = c_loc(properties)
+    material%property_count = size(properties, kind=c_int64_t)
+  end subroutine
 
   !> Cohesive law: strength (Pa), G_I (J/m2), G_II / G_I (1 if absent), peak shear over strength (1), Coulomb
   !> coefficient between closed faces (0), exponent of its growth with damage (1), share of a pressure that
