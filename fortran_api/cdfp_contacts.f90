@@ -108,7 +108,7 @@ contains
     class(cdfp_contact_search), intent(in) :: this
     real(c_double), contiguous, intent(in) :: x(:, :)
     integer(c_int32_t), contiguous, intent(in) :: nodes(:), segments(:, :), edges(:, :)
-    integer(c_int32_t), contiguous, intent(in), optional :: groups(:)
+    integer(c_int32_t), intent(in), optional :: groups(:)
     integer, intent(in), optional :: threads
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
@@ -132,7 +132,7 @@ contains
     class(cdfp_contact_search), intent(in) :: this
     real(c_double), contiguous, intent(in) :: x(:, :)
     integer(c_int32_t), contiguous, intent(in) :: nodes(:), segments(:, :), edges(:, :)
-    integer(c_int32_t), contiguous, intent(in), optional :: groups(:), renamed_segments(:), renamed_edges(:)
+    integer(c_int32_t), intent(in), optional :: groups(:), renamed_segments(:), renamed_edges(:)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     integer(c_int32_t), allocatable :: group_numbers(:)
@@ -371,7 +371,7 @@ contains
   subroutine regular_search(this, x, groups, threads, stat, errmsg)
     class(cdfp_contact), intent(in) :: this
     real(c_double), contiguous, intent(in) :: x(:, :)
-    integer(c_int32_t), contiguous, intent(in), optional :: groups(:)
+    integer(c_int32_t), intent(in), optional :: groups(:)
     integer, intent(in), optional :: threads
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
@@ -389,7 +389,7 @@ contains
   subroutine adaptive_search(this, x, groups, stat, errmsg)
     class(cdfp_contact), intent(in) :: this
     real(c_double), contiguous, intent(in) :: x(:, :)
-    integer(c_int32_t), contiguous, intent(in), optional :: groups(:)
+    integer(c_int32_t), intent(in), optional :: groups(:)
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
     integer(c_int32_t), allocatable :: group_numbers(:)
@@ -408,7 +408,7 @@ contains
     class(cdfp_contact), intent(in) :: this
     real(c_double), contiguous, intent(in) :: x(:, :), v(:, :)
     real(c_double), intent(in) :: step
-    integer(c_int32_t), contiguous, intent(in), optional :: groups(:)
+    integer(c_int32_t), intent(in), optional :: groups(:)
     integer, intent(in), optional :: threads
     integer, intent(out), optional :: stat
     character(len=*), intent(inout), optional :: errmsg
