@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <random>
 #include <set>
 #include <vector>
 
 #include "cdfp/contact.hpp"
+#include "cdfp/error.hpp"
 
 namespace {
 
@@ -192,6 +194,35 @@ TEST(Search, ThreadsDoNotChangeTheOrder) {
   EXPECT_GT(one.node_segments().size(), 10000u);
   EXPECT_EQ(in_order(one.node_segments()), in_order(two.node_segments()));
   EXPECT_EQ(in_order(one.edge_edges()), in_order(two.edge_edges()));
+}
+
+TEST(Search, SamePairsForEveryInstructionSet) {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    std::mt19937 random(seed);
+    Soup soup;
+    for (int i = 0; i < 3000; ++i) soup.add_segment(random, 0.1, seed == 3 ? 40.0 : 1.0);
+    const auto pairs_with = [&](const char* isa) {
+      setenv("CDFP_ISA", isa, 1);
+      cdfp::ContactSearch search(1.0, 0.4);
+      unsetenv("CDFP_ISA");
+      search.regular(soup.view());
+      std::vector<Index> pairs;
+      for (Index row = 0; row < search.node_segments().rows(); ++row) {
+        search.node_segments().for_each(row, [&](Index m) { pairs.insert(pairs.end(), {row, m}); });
+      }
+      return pairs;
+    };
+    const std::vector<Index> base = pairs_with("baseline");
+    EXPECT_GT(base.size(), 200u);
+    for (const char* isa : {"avx2", "avx512"}) {
+      try {
+        EXPECT_EQ(pairs_with(isa), base) << isa;
+      } catch (const cdfp::Error& error) {
+        unsetenv("CDFP_ISA");
+        EXPECT_EQ(error.status(), cdfp::Status::bad_argument);  // this processor lacks it
+      }
+    }
+  }
 }
 
 TEST(Search, TakesEmptyScenes) {
