@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "cdfp/cohesive.hpp"
@@ -78,10 +76,7 @@ CohesiveCriterion::CohesiveCriterion(const Topology& topology, std::span<const d
     : kept_(new Kept{Criterion(model_of(topology, coordinates, settings)), {}, {}, {}, {}}) {
   for (Index e = 0; e < topology.bulk_count(); ++e) {
     kept_->law_of_element.push_back(settings.law_of_part[settings.parts[e]]);
-    const CohesiveLaw* law = kept_->criterion.strength().law_of(e);
-    const double least =
-        law ? (1 - 1e-9) * kept_->criterion.strength().least_of_element(e) * std::min(1.0, law->shear_ratio)
-            : std::numeric_limits<double>::infinity();
+    const double least = (1 - 1e-9) * kept_->criterion.least_norm(e);
     kept_->least.push_back(least * least);
   }
 }

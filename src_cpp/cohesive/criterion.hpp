@@ -35,6 +35,10 @@ class Criterion {
 
   const FacetStrength& strength() const { return strength_; }
 
+  /// Pa: no facet of the element opens by its stress alone if its norm is smaller; infinite if it does not
+  /// crack.
+  double least_norm(Index element) const;
+
  private:
   /// What one call of `find` looks at.
   struct Scene {
@@ -42,8 +46,6 @@ class Criterion {
     std::span<const double> position;
     const std::function<Mat3(Index)>& stress;
   };
-  /// Pa: no facet of the element opens by its stress alone if its norm is smaller.
-  double least_norm(Index element) const;
   Mat3 stress_of(Index element, const Scene& scene) const {
     return place_[element] == kNone ? scene.stress(element) : stresses_[place_[element]];
   }

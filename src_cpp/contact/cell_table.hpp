@@ -178,13 +178,7 @@ class CellTable {
     std::size_t count = 0;
 
     void take(const Index* eight, unsigned lanes) {
-      const LaneList& list = kLaneLists[lanes];
-      Index* const to = ids.data() + count;
-      for (int i = 0; i < 4; ++i) to[i] = eight[list.lanes[i]];
-      if (list.count > 4) {
-        for (int i = 4; i < 8; ++i) to[i] = eight[list.lanes[i]];
-      }
-      count += list.count;
+      count += pick_of_eight(eight, lanes, ids.data() + count);
     }
     template <class Report>
     void give(Report& report) {

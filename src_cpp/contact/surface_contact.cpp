@@ -233,8 +233,7 @@ std::vector<std::string> SurfaceContact::warnings() const {
   return {(worst.edges ? "contact: an edge at node " : "contact: node ") + std::to_string(worst.node) +
           of_part(worst.parts[0]) + depth + of_part(worst.parts[1]) + share +
           "raise contact.penalty_factor or take smaller steps (contact.penetration_warning sets from which "
-          "share on "
-          "this is said)"};
+          "share on this is said)"};
 }
 
 std::size_t SurfaceContact::memory() const {

@@ -164,11 +164,7 @@ struct Wide {
     }
   };
   CDFP_ALWAYS_INLINE static void pick(const Index* ids, Bits bits, Index* to) {
-    const LaneList& list = kLaneLists[bits];
-    for (int i = 0; i < 4; ++i) to[i] = ids[list.lanes[i]];
-    if (list.count > 4) {
-      for (int i = 4; i < 8; ++i) to[i] = ids[list.lanes[i]];
-    }
+    pick_of_eight(ids, bits, to);
   }
 };
 

@@ -95,4 +95,15 @@ struct LaneLists {
 };
 inline constexpr LaneLists kLaneLists;
 
+/// Writes those of eight numbers that the bits name to `to`, which has room for eight; returns how many they
+/// are.
+CDFP_ALWAYS_INLINE std::uint32_t pick_of_eight(const std::int32_t* eight, unsigned bits, std::int32_t* to) {
+  const LaneList& list = kLaneLists[bits];
+  for (int i = 0; i < 4; ++i) to[i] = eight[list.lanes[i]];
+  if (list.count > 4) {
+    for (int i = 4; i < 8; ++i) to[i] = eight[list.lanes[i]];
+  }
+  return list.count;
+}
+
 }  // namespace cdfp
