@@ -107,15 +107,13 @@ void write_constants(BlockKind kind, const HexahedronGeometry& geometry, const E
     case BlockKind::full_prism_stored:
     case BlockKind::full_prism_rate_dependent: {
       using Shape = host::PrismPoints;
-      prism_gradient();
-      write(Shape::kAcross, geometry.to_points[0](2, 2));
-      for (int p = 0; p < 4; ++p) {
-        const int first = Shape::kPoint + Shape::kPerPoint * p;
-        for (int axis = 0; axis < 2; ++axis) {
-          for (int j = 0; j < 2; ++j) write(first + 2 * axis + j, geometry.to_points[p](axis, j));
-        }
-        write(first + 4, geometry.point_volumes[p]);
-      }
+      const Eigen::Matrix<double, 7, 3>& b = geometry.b;
+      const double kept[] = {b(0, 0), b(0, 1), b(1, 0), b(1, 1), b(2, 2)};
+      for (int i = 0; i < 5; ++i) write(i, kept[i]);
+      const double area = std::sqrt(3.0) * 64 * geometry.volume * b(2, 2);
+      write(Shape::kBend, geometry.moments(2, 1) / area);
+      write(Shape::kBend + 1, -geometry.moments(2, 0) / area);
+      write(Shape::kVolume, geometry.volume);
       return;
     }
     case BlockKind::full_elastic:

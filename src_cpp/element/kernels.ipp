@@ -96,7 +96,7 @@ template <class Formulation, class Law>
 BlockEnergy energy(const BlockInput& block) {
   const PartConstants part = *block.part;
   const auto* block_state = reinterpret_cast<const double*>(block.state);
-  BlockEnergy sum;
+  alignas(Lanes) double of_element[3][kBlock];
   for (int first = 0; first < block.count; first += kWidth) {
     const PackOfBlock<Formulation, Law> pack(block, first);
     Pack x[Formulation::kCorners][3];
@@ -110,11 +110,15 @@ BlockEnergy energy(const BlockInput& block) {
       dissipated += Formulation::template volume<Pack>(pack.constants, point) *
                     Law::template dissipated<Pack>(pack.point(block_state, point));
     }
-    for (int lane = 0; lane < kWidth && first + lane < block.count; ++lane) {
-      sum.strain += strain_energy[lane];
-      sum.hourglass += hourglass_energy[lane];
-      sum.dissipated += dissipated[lane];
-    }
+    store(of_element[0] + first, strain_energy);
+    store(of_element[1] + first, hourglass_energy);
+    store(of_element[2] + first, dissipated);
+  }
+  BlockEnergy sum;
+  for (int l = 0; l < block.count; ++l) {
+    sum.strain += of_element[0][l];
+    sum.hourglass += of_element[1][l];
+    sum.dissipated += of_element[2][l];
   }
   return sum;
 }
