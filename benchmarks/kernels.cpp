@@ -56,7 +56,8 @@ void stable_step(benchmark::State& state) {
 BENCHMARK(stable_step);
 
 void advance_nodes(benchmark::State& state) {
-  Nodes nodes(bench::plate(Shape::extruded, Formulation::one_point, false, kColumns).mesh.coordinates);
+  const Model model = bench::plate(Shape::extruded, Formulation::one_point, false, kColumns);
+  Nodes nodes(model.mesh.coordinates);
   for (double& m : nodes.mass) m = 1;
   for (auto _ : state) {
     drift(6e-8, nodes, Threads(1));

@@ -144,7 +144,6 @@ struct Simulation::Stages {
   std::vector<Stage> move_;
   std::vector<Stage> forces_;
   std::vector<Stage> finish_;
-  std::vector<Index> connectivity_, first_corner_;
   std::vector<OpenFacet> open_;
   Insertion insertion_;
   std::vector<Index> split_;  ///< nodes whose elements changed in this step
@@ -174,7 +173,7 @@ Simulation::Stages::Stages(Model given)
         return motions;
       }()),
       constraints([this] {
-        const std::vector<Index> first = first_corners(model.mesh);
+        const std::span<const Index> first = elements.first_corners();
         for (const InitialVelocity& initial : model.initial_velocities) {
           const Index part = part_number(model.mesh, initial.part);
           for (Index e = 0; e < model.mesh.element_count(); ++e) {
@@ -191,9 +190,7 @@ Simulation::Stages::Stages(Model given)
         return Constraints(model, nodes);
       }()),
       monitor(model),
-      nodes_initial(model.mesh.node_count()),
-      connectivity_(model.mesh.connectivity),
-      first_corner_(first_corners(model.mesh)) {
+      nodes_initial(model.mesh.node_count()) {
   take_shown_elasticity();
   elements.add_mass(nodes.mass);
   for (Index n = 0; n < nodes.count(); ++n) {
@@ -303,14 +300,14 @@ void Simulation::Stages::step() {
 void Simulation::Stages::insert(FacetUse lower) {
   topology.insert_cohesive(lower, insertion_);
   for (const auto& [node, mother] : insertion_.new_nodes) {
-    nodes.clone(mother);
+    nodes.clone(mother, model.mesh.coordinates);
     split_.push_back(mother);
     split_.push_back(node);
   }
   for (const Insertion::Renumbered& r : insertion_.renumbered) {
     if (r.element >= topology.bulk_count()) continue;
     elements.replace_node(r.element, r.corner, r.new_node);
-    connectivity_[first_corner_[r.element] + r.corner] = r.new_node;
+    model.mesh.connectivity[elements.first_corners()[r.element] + r.corner] = r.new_node;
   }
   constraints.follow(insertion_);
   if (contact) contact->follow(insertion_);
@@ -534,8 +531,8 @@ Frame Simulation::Stages::frame() const {
   f.reference = nodes.reference;
   f.positions = nodes.position;
   f.velocities = nodes.velocity;
-  f.connectivity = connectivity_;
-  f.first_corner = first_corner_;
+  f.connectivity = model.mesh.connectivity;
+  f.first_corner = elements.first_corners();
   f.parts = model.mesh.parts;
   f.part_names = model.mesh.part_names;
   for (const SymmetryPlane& plane : model.symmetry_planes)

@@ -52,7 +52,8 @@ class Simulation {
   void set_positions(std::span<const double> positions);    ///< m; contact is searched anew
   void set_velocities(std::span<const double> velocities);  ///< m/s, half a step ahead of the positions
 
-  const Model& model() const;  ///< its mesh as it was at the start
+  /// Its mesh is undeformed, with nodes and corners as cracks have split them so far.
+  const Model& model() const;
   const Topology& topology() const;
 
   struct BodyState {

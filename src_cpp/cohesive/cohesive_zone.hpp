@@ -23,6 +23,7 @@ enum class CohesiveScheme {
 
 class CohesiveZone {
  public:
+  /// The model must stay.
   explicit CohesiveZone(const Model& model, CohesiveScheme scheme = CohesiveScheme::mean_traction);
   /// For a caller's own elements, which have consecutive numbers from `first_element` on.
   explicit CohesiveZone(Index first_element);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "cdfp/error.hpp"
 #include "core/vec3.hpp"
@@ -73,16 +74,11 @@ double FacetStrength::of(FacetUse lower, Index upper) const {
 
 void FacetStrength::find_least(const Model& model) {
   const auto count = part_of_element_.size();
-  least_.assign(count, kInfinite);
   const bool varies = !shares_.empty() || std::any_of(laws_.begin(), laws_.end(), [](const CohesiveLaw& law) {
     return law.weibull_modulus > 0;
   });
-  if (!varies) {
-    for (std::size_t e = 0; e < count; ++e) {
-      if (const CohesiveLaw* law = law_of(static_cast<Index>(e))) least_[e] = law->strength;
-    }
-    return;
-  }
+  if (!varies) return;
+  least_.assign(count, kInfinite);
   const Topology topology(model.mesh.node_count(), model.mesh.types, model.mesh.connectivity);
   area_.assign(kMostFacets * count, 0.0);
   for (Index e = 0; e < static_cast<Index>(count); ++e) {
@@ -101,6 +97,9 @@ void FacetStrength::find_least(const Model& model) {
 /// A facet's traction is made from the stresses of all elements around its corners: each of them must know of
 /// the facet.
 void FacetStrength::spread_over_nodes(const Model& model) {
+  std::vector<double> least(part_of_element_.size());
+  for (std::size_t e = 0; e < least.size(); ++e) least[e] = least_of_element(static_cast<Index>(e));
+  least_ = std::move(least);
   const std::vector<Index>& nodes = model.mesh.connectivity;
   std::vector<double> at_node(model.mesh.node_count(), kInfinite);
   const auto for_corners = [&](auto&& visit) {
@@ -117,7 +116,17 @@ void FacetStrength::spread_over_nodes(const Model& model) {
   });
 }
 
+double FacetStrength::least_of_element(Index element) const {
+  if (!least_.empty()) return least_[element];
+  const CohesiveLaw* law = law_of(element);
+  return law ? law->strength : kInfinite;
+}
+
 double FacetStrength::least_of_part(Index part) const {
+  if (least_.empty()) {
+    const std::int32_t law = law_of_part_[part];
+    return law < 0 ? kInfinite : laws_[law].strength;
+  }
   double least = kInfinite;
   for (std::size_t e = 0; e < least_.size(); ++e) {
     if (part_of_element_[e] == part) least = std::min(least, least_[e]);

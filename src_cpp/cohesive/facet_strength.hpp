@@ -25,7 +25,7 @@ class FacetStrength {
   double of(FacetUse lower, Index upper) const;
 
   /// Pa, at most the strength of each of the element's facets.
-  double least_of_element(Index element) const { return least_[element]; }
+  double least_of_element(Index element) const;
   /// Pa, at most the strength of each of the part's facets; infinite if it does not crack.
   double least_of_part(Index part) const;
 
@@ -39,7 +39,7 @@ class FacetStrength {
   std::vector<Index> part_of_element_;
   std::vector<double> shares_;
   std::vector<double> area_;  ///< m2, six an element; empty if no law needs it
-  std::vector<double> least_;
+  std::vector<double> least_;  ///< by element; empty if strength follows the part's law alone
 };
 
 }  // namespace cdfp

@@ -134,8 +134,8 @@ struct CohesiveZone::Points {
   }
 
   CohesiveScheme scheme;
-  std::vector<Index> part_of_element;
-  std::vector<Index> layer_of_element;
+  std::span<const Index> part_of_element;
+  std::span<const Index> layer_of_element;
   std::vector<std::int32_t> law_of_part;
   std::vector<Law> laws;
   std::vector<UserPoints> users;  ///< one a law

@@ -30,7 +30,7 @@ double bulk_modulus(const Material& material) {
 struct Contact::Stages {
   SurfaceContact surface;
   std::vector<double> bulk_modulus;  // by part
-  std::vector<Index> part_of_element;
+  std::span<const Index> part_of_element;
   std::unordered_set<std::int64_t> dormant;  // bonded facets
   int threads = 1;
 

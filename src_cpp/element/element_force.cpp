@@ -127,6 +127,10 @@ double ElementForce::corner_mass(Index element) const {
   return blocks_->corner_masses[element];
 }
 
+std::span<const Index> ElementForce::first_corners() const {
+  return blocks_->first_corner;
+}
+
 bool ElementForce::has_user_laws() const {
   return std::any_of(blocks_->groups.begin(), blocks_->groups.end(),
                      [](const BlockGroup& group) { return group.user != nullptr; });

@@ -33,6 +33,9 @@ class ElementForce {
   /// kg: what one element gives to each of its corners; 0 for rigid elements.
   double corner_mass(Index element) const;
 
+  /// Where each element's corners start in the mesh's connectivity, and the end.
+  std::span<const Index> first_corners() const;
+
   /// Whether a part has a law of the user's, so that `advance_user_laws` has work.
   bool has_user_laws() const;
 

@@ -137,6 +137,9 @@ Mesh laminated_plate_mesh(const LaminatedPlate& plate) {
   mesh.node_sets.push_back(nodes_on_plane(mesh, "symmetry_y", 1));
   mesh.coordinates.shrink_to_fit();
   mesh.connectivity.shrink_to_fit();
+  mesh.types.shrink_to_fit();
+  mesh.parts.shrink_to_fit();
+  mesh.layers.shrink_to_fit();
   return mesh;
 }
 

@@ -18,6 +18,7 @@ namespace cdfp {
 
 class Monitor {
  public:
+  /// The model must stay.
   explicit Monitor(const Model& model);
 
   struct Body {
@@ -43,8 +44,8 @@ class Monitor {
   double whole(Vec3 force) const;  ///< of the whole structure: mirrored components cancel, others multiply
 
   std::vector<std::string> part_names_;
-  std::vector<Index> part_of_element_;
-  std::vector<Index> layer_of_element_;
+  std::span<const Index> part_of_element_;
+  std::span<const Index> layer_of_element_;
   std::vector<Index> layers_of_part_;
   std::vector<bool> cracks_;
   std::vector<bool> mirrored_{false, false, false};

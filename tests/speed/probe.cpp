@@ -35,7 +35,8 @@ int forces(const Model& model, int rounds) {
 }
 
 int advance(int rounds) {
-  Nodes nodes(box(true, Formulation::one_point, false).mesh.coordinates);
+  const Model model = box(true, Formulation::one_point, false);
+  Nodes nodes(model.mesh.coordinates);
   for (double& m : nodes.mass) m = 1;
   for (int round = 0; round < rounds; ++round) {
     drift(6e-8, nodes, Threads(1));

@@ -211,7 +211,7 @@ struct Moved {
         zone(model),
         threads(1) {
     topology.insert_cohesive(facet, report);
-    for (const auto& [node, mother] : report.new_nodes) nodes.clone(mother);
+    for (const auto& [node, mother] : report.new_nodes) nodes.clone(mother, model.mesh.coordinates);
     std::fill(nodes.mass.begin(), nodes.mass.end(), mass);
     zone.insert(topology, report, {report.lower, traction}, nodes, 0);
     for (const Index n : topology.nodes(report.upper.element)) is_upper.push_back(n);

@@ -123,7 +123,7 @@ class SpringBody {
 
   void insert(const OpenFacet& facet) {
     topology.insert_cohesive(facet.lower, report);
-    for (const auto& [node, mother] : report.new_nodes) nodes.clone(mother);
+    for (const auto& [node, mother] : report.new_nodes) nodes.clone(mother, model.mesh.coordinates);
     std::fill(nodes.mass.begin(), nodes.mass.end(), 0.0);
     std::fill(nodes.force.begin(), nodes.force.end(), 0.0);
     for (Index e = 0; e < topology.bulk_count(); ++e) {

@@ -125,7 +125,7 @@ TEST_P(Cracking, FacesThatComeFreeStayQuietAndAreFoundAsByARegularSearch) {
     for (const std::size_t end = std::min(inner.size(), at + 1 + random() % 5); at < end; ++at) {
       topology.insert_cohesive(inner[at], report);
       for (const Insertion::NewNode& node : report.new_nodes) {
-        ASSERT_EQ(nodes.clone(node.mother), node.node);
+        ASSERT_EQ(nodes.clone(node.mother, model.mesh.coordinates), node.node);
         nodes.mass[node.mother] *= 0.5;
         nodes.mass[node.node] = nodes.mass[node.mother];
       }
