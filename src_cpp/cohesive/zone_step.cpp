@@ -14,8 +14,8 @@ constexpr double kGivesWay = 0.9;
 /// Share of its turn in a step that a pressed face follows. Pressed pairs that have slid push past one
 /// another: where their direction followed every wave along the face, they would feed it.
 constexpr double kPressedTurn = 0.01;
-constexpr std::int64_t kGrain = 64;
-constexpr std::size_t kWorthwhile = 512;  ///< facets for which threads are woken
+constexpr std::int64_t kGrain = 4;
+constexpr std::size_t kWorthwhile = 16;  ///< facets for which threads are woken
 
 }  // namespace
 
