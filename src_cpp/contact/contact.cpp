@@ -31,7 +31,7 @@ struct Contact::Stages {
   SurfaceContact surface;
   std::vector<double> bulk_modulus;  // by part
   std::span<const Index> part_of_element;
-  std::unordered_set<std::int64_t> dormant;  // bonded facets
+  std::vector<std::int64_t> dormant;  // bonded facets, ascending
   int threads = 1;
 
   static std::int64_t key(FacetUse use) { return std::int64_t{8} * use.element + use.facet; }
@@ -73,10 +73,11 @@ Contact::Contact(const Model& model, const Topology& topology)
       if (topology.mate(use).element == kNone) {
         s.add({&use, 1}, topology, model.mesh.coordinates);
       } else {
-        s.dormant.insert(Stages::key(use));
+        s.dormant.push_back(Stages::key(use));
       }
     }
   }
+  std::sort(s.dormant.begin(), s.dormant.end());
 }
 Contact::~Contact() = default;
 
@@ -85,7 +86,11 @@ void Contact::follow(const Insertion& insertion) {
 }
 
 void Contact::add_segments(std::span<const FacetUse> facets, const Topology& topology, const Nodes& nodes) {
-  for (const FacetUse use : facets) stages_->dormant.erase(Stages::key(use));
+  std::vector<std::int64_t>& dormant = stages_->dormant;
+  for (const FacetUse use : facets) {
+    const auto found = std::lower_bound(dormant.begin(), dormant.end(), Stages::key(use));
+    if (found != dormant.end() && *found == Stages::key(use)) dormant.erase(found);
+  }
   stages_->add(facets, topology, nodes.reference);
 }
 

@@ -25,6 +25,7 @@ constexpr double kOverhang = 0.1;
 constexpr double kNoGap = -1e-11;
 constexpr double kLeastSine = 0.05;
 constexpr double kOutOfCone = 0.1;
+constexpr std::int64_t kPiece = 64;  ///< nodes that one thread looks at together
 
 Vec3 at(const double* x, Index node) {
   return Vec3::load(x + 3 * static_cast<std::size_t>(node));
@@ -90,10 +91,7 @@ bool SurfaceContact::Stages::shares_element(Index row, Index segment) const {
   return shares;
 }
 
-void SurfaceContact::Stages::look_at_node(const double* x, Index active) {
-  const Index row = active_nodes[active];
-  Hit& hit = hits[active];
-  hit.segment = kNone;
+void SurfaceContact::Stages::look_at_node(const double* x, Index row, std::vector<Hit>& found) {
   const double travel = search.travel();
   if (wake[row] > travel) return;
   const Vec3 p = at(x, surface.nodes()[row]);
@@ -107,12 +105,13 @@ void SurfaceContact::Stages::look_at_node(const double* x, Index active) {
     const double radius = planes[held].radius;
     const bool behind = under_held.gap < kNoGap * radius && under_held.gap > -surface.data(held).height;
     if (behind && under_held.outside <= kBorder * radius - under_held.gap) {
-      hit = {held, under_held};
+      found.push_back({row, held, under_held});
       return;
     }
     overhangs = behind && holds[row].grip.pressed < 0 && under_held.outside <= kOverhang * radius;
   }
 
+  Hit hit{row, kNone, {}};
   bool have_normal = false;
   Vec3 own_normal;
   double best = std::numeric_limits<double>::infinity();
@@ -161,11 +160,12 @@ void SurfaceContact::Stages::look_at_node(const double* x, Index active) {
     const double way_out = -point.gap / facing;
     if (way_out < best * (1 - 1e-9) && !shares_element(row, segment)) {
       best = way_out;
-      hit = {segment, point};
+      hit = {row, segment, point};
     }
   });
-  if (hit.segment == kNone && overhangs) hit = {held, under_held};
+  if (hit.segment == kNone && overhangs) hit = {row, held, under_held};
   wake[row] = hit.segment == kNone ? travel + room : 0;
+  if (hit.segment != kNone) found.push_back(hit);
 }
 
 /// Appendix F, with the normal held inside both edges' cones of face normals: only then does the way out of
@@ -250,16 +250,21 @@ void SurfaceContact::local_search(const Arrays& arrays, int threads) {
   const std::int64_t faces = static_cast<std::int64_t>(s.active_segments.size());
   share_out(threads, faces, [&](std::int64_t i) { s.place_plane(x, s.active_segments[i]); });
   const std::int64_t nodes = static_cast<std::int64_t>(s.active_nodes.size());
-  share_out(threads, nodes, [&](std::int64_t i) { s.look_at_node(x, static_cast<Index>(i)); });
-  s.hit_nodes.clear();
-  for (std::int64_t i = 0; i < nodes; ++i) {
-    if (s.hits[i].segment != kNone) s.hit_nodes.push_back(static_cast<Index>(i));
+  s.piece_hits.resize(static_cast<std::size_t>((nodes + kPiece - 1) / kPiece));
+  Threads(threads).for_ranges(nodes, kPiece, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<Stages::Hit>& found = s.piece_hits[begin / kPiece];
+    found.clear();
+    for (std::int64_t i = begin; i < end; ++i) s.look_at_node(x, s.active_nodes[i], found);
+  });
+  s.hits.clear();
+  for (const std::vector<Stages::Hit>& found : s.piece_hits) {
+    s.hits.insert(s.hits.end(), found.begin(), found.end());
   }
   std::swap(s.node_touches, s.old_node_touches);
-  s.node_touches.resize(s.hit_nodes.size());
-  share_out(threads, static_cast<std::int64_t>(s.hit_nodes.size()), [&](std::int64_t i) {
-    const Stages::Hit& hit = s.hits[s.hit_nodes[i]];
-    const Index row = s.active_nodes[s.hit_nodes[i]];
+  s.node_touches.resize(s.hits.size());
+  share_out(threads, static_cast<std::int64_t>(s.hits.size()), [&](std::int64_t i) {
+    const Stages::Hit& hit = s.hits[i];
+    const Index row = hit.row;
     const Index* c = s.surface.corners(hit.segment);
     const std::array<double, 4>& shape = hit.point.shape;
     TouchingPair& touch = s.node_touches[i] = TouchingPair{};

@@ -77,7 +77,7 @@ struct SurfaceContact::Stages {
     double radius = 0, warp = 0;
   };
   struct Hit {
-    Index segment = kNone;
+    Index row, segment;
     FacePoint point;
   };
   /// A node of each side of a pair.
@@ -86,20 +86,20 @@ struct SurfaceContact::Stages {
     TouchingPair* pair;
     bool turned;  // the second side's node comes first
   };
-  std::vector<Hold> holds;               // by contact node
-  std::vector<double> wake;              // by contact node: travel before which it can't touch
-  std::vector<std::uint8_t> has_pairs;   // by contact node
-  std::vector<Index> active_nodes;       // with candidates
-  std::vector<std::uint8_t> is_partner;  // by segment
-  std::vector<Index> active_segments;    // candidates of some node
-  std::vector<Plane> planes;             // by segment
-  std::vector<Hit> hits;                 // by active node
-  std::vector<double> edge_wake;         // by edge
+  std::vector<Hold> holds;                   // by contact node
+  std::vector<double> wake;                  // by contact node: travel before which it can't touch
+  std::vector<std::uint8_t> has_pairs;       // by contact node
+  std::vector<Index> active_nodes;           // with candidates
+  std::vector<std::uint8_t> is_partner;      // by segment
+  std::vector<Index> active_segments;        // candidates of some node
+  std::vector<Plane> planes;                 // by segment
+  std::vector<std::vector<Hit>> piece_hits;  // by piece of the active nodes
+  std::vector<Hit> hits;
+  std::vector<double> edge_wake;  // by edge
   std::vector<std::uint8_t> edge_has_pairs;
   std::vector<Index> active_edges;
   std::vector<std::array<Index, 4>> edge_hits;  // by active edge: partners, kNone after the last
   std::int32_t stamp = 0;
-  std::vector<Index> hit_nodes;
   std::vector<std::array<Index, 2>> hit_edges;
   std::vector<TouchingPair*> ended;      // in this step's local search
   std::vector<std::int32_t> ended_here;  // by contact node: the last step in which a pair with it ended
@@ -126,7 +126,7 @@ struct SurfaceContact::Stages {
   FacePoint project(const double* x, Vec3 p, Index segment, double xi = 0, double eta = 0) const;
   Vec3 node_normal(const double* x, Index row) const;
   bool shares_element(Index row, Index segment) const;
-  void look_at_node(const double* x, Index active);
+  void look_at_node(const double* x, Index row, std::vector<Hit>& found);
   bool edges_touch(const double* x, Index m, Index n, double& room, TouchingPair* touch) const;
   void look_at_edge(const double* x, Index active);
   void hand_over();

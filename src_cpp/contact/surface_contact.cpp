@@ -131,7 +131,6 @@ void SurfaceContact::regular_search(const Arrays& arrays, int threads) {
     if (!s.search.edge_edges().empty(edge)) s.activate_edge(edge);
   }
   std::sort(s.active_segments.begin(), s.active_segments.end());
-  s.hits.resize(s.active_nodes.size());
   s.edge_hits.resize(s.active_edges.size());
 }
 
@@ -144,7 +143,6 @@ void SurfaceContact::adaptive_search(const Arrays& arrays) {
   s.grow_to_surface();
   for (const Index row : s.search.touched_node_rows()) s.activate_node(arrays.position.data(), row);
   for (const Index edge : s.search.touched_edge_rows()) s.activate_edge(edge);
-  s.hits.resize(s.active_nodes.size());
   s.edge_hits.resize(s.active_edges.size());
 }
 
