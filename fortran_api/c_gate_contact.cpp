@@ -318,6 +318,15 @@ int32_t cdfp_contact_follow(cdfp_contact* contact, int64_t new_node_count, const
   });
 }
 
+int32_t cdfp_contact_remove_elements(cdfp_contact* contact, int64_t count, const int32_t* elements) {
+  return guarded(__func__, [&] {
+    const Change c(contact);
+    const std::size_t n = size_of(count, "count");
+    need_array(elements, count, "elements");
+    for (std::size_t i = 0; i < n; ++i) c->contact.remove_element(elements[i]);
+  });
+}
+
 int32_t cdfp_contact_due(cdfp_contact* contact, int64_t nodes, const double* velocity, double step,
                          int32_t threads, int32_t* search) {
   return guarded(__func__, [&] {

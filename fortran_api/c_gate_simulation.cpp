@@ -287,6 +287,36 @@ int32_t cdfp_simulation_first_crack(const cdfp_simulation* simulation, const cha
   });
 }
 
+int32_t cdfp_simulation_contact_pair_count(const cdfp_simulation* simulation, int64_t* count) {
+  return guarded(__func__, [&] {
+    set(count, static_cast<int64_t>(Look(simulation)->summary().contact_pairs.size()), "count");
+  });
+}
+
+int32_t cdfp_simulation_contact_pair(const cdfp_simulation* simulation, int64_t pair,
+                                     cdfp_contact_pair* values) {
+  return guarded(__func__, [&] {
+    const std::vector<Summary::ContactPair> pairs = Look(simulation)->summary().contact_pairs;
+    need_number(pair, static_cast<int64_t>(pairs.size()), "contact pair");
+    need(values, "values");
+    const Summary::ContactPair& p = pairs[pair];
+    *values = {.peak_force_n = p.peak_force_n,
+               .stored_j = p.stored_j,
+               .friction_heat_j = p.friction_heat_j,
+               .deepest_penetration_m = p.deepest_penetration_m};
+  });
+}
+
+int32_t cdfp_simulation_contact_pair_part(const cdfp_simulation* simulation, int64_t pair, int32_t side,
+                                          char* text, int64_t capacity, int64_t* length) {
+  return guarded(__func__, [&] {
+    const std::vector<Summary::ContactPair> pairs = Look(simulation)->summary().contact_pairs;
+    need_number(pair, static_cast<int64_t>(pairs.size()), "contact pair");
+    need_number(side, 2, "side of a contact pair");
+    copy_text(pairs[pair].parts[side], text, capacity, length);
+  });
+}
+
 int32_t cdfp_simulation_stage_count(const cdfp_simulation* simulation, int64_t* count) {
   return guarded(__func__, [&] {
     set(count, static_cast<int64_t>(Look(simulation)->summary().stages.size()), "count");

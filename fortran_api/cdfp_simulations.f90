@@ -41,6 +41,8 @@ module cdfp_simulations
     procedure :: energies
     procedure :: summary
     procedure :: first_crack
+    procedure :: contact_pair_count
+    procedure :: get_contact_pair
     procedure :: stage_count
     procedure :: get_stage
     procedure :: warning_count
@@ -423,6 +425,45 @@ contains
     call report(cdfp_simulation_first_crack(this%handle%address, c_text(part), time, number, position), &
                 stat, errmsg)
     layer = int(number) + 1
+  end subroutine
+
+  !> Pairs of parts that have touched, in the order in which they first did.
+  function contact_pair_count(this, stat, errmsg) result(pairs)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer :: pairs
+    integer(c_int64_t) :: count
+
+    count = 0
+    call report(cdfp_simulation_contact_pair_count(this%handle%address, count), stat, errmsg)
+    pairs = int(count)
+  end function
+
+  !> Names of the two parts (the same twice for one that touched itself), force and energies between them.
+  subroutine get_contact_pair(this, number, first, second, values, stat, errmsg)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(in) :: number
+    character(len=:), allocatable, intent(out) :: first, second
+    type(cdfp_contact_pair), intent(out) :: values
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(kind=c_char) :: buffer(1024)
+    integer(c_int64_t) :: pair, length(2)
+    integer(c_int32_t) :: status
+
+    pair = int(number, c_int64_t) - 1
+    length = 0
+    first = ''
+    second = ''
+    status = cdfp_simulation_contact_pair(this%handle%address, pair, values)
+    if (status == CDFP_OK) status = cdfp_simulation_contact_pair_part(this%handle%address, pair, 0_c_int32_t, &
+                                    buffer, size(buffer, kind=c_int64_t), length(1))
+    if (status == CDFP_OK) first = fortran_text(buffer, length(1))
+    if (status == CDFP_OK) status = cdfp_simulation_contact_pair_part(this%handle%address, pair, 1_c_int32_t, &
+                                    buffer, size(buffer, kind=c_int64_t), length(2))
+    if (status == CDFP_OK) second = fortran_text(buffer, length(2))
+    call report(status, stat, errmsg)
   end subroutine
 
   !> Stages of the step, such as "traction".

@@ -9,7 +9,8 @@
 //   criterion        | critical elements, stress    | facets that open
 //   insertion        | facets that open             | topology, nodes, element corners, cohesive elements
 //   gravity, load    | mass, position, velocity     | force
-//   surface          | broken cohesive elements     | contact segments and edges
+//   surface          | broken cohesive and deleted  | contact segments and edges
+//                    | elements                     |
 //   global_search    | position, velocity           | candidate pairs (regular, if due)
 //   adaptive_search  | new contact entities         | candidate pairs
 //   local_search     | candidate pairs, position    | contacts: gap, slip
@@ -150,6 +151,7 @@ struct Simulation::Stages {
   std::vector<Index> split_;  ///< nodes whose elements changed in this step
   std::vector<VertexUse> around_;
   std::vector<FacetUse> freed_;
+  std::vector<Index> gone_;  ///< deleted in this step
   double next_step_ = 0;
   double work_ahead_ = 0;
   int adaptive_clock_ = 0;
@@ -257,6 +259,7 @@ void Simulation::Stages::list_stages() {
       const double end = time + step_size;
       for (const Index e : elements.advance_user_laws(nodes.position, end, step_size, threads)) {
         deleted.push_back({e, model.mesh.part_names[model.mesh.parts[e]], end});
+        if (contact) gone_.push_back(e);
       }
     });
   }
@@ -273,7 +276,7 @@ void Simulation::Stages::list_stages() {
   if (has_gravity()) add_stage(forces_, "gravity", [this] { add_gravity(gravity(), nodes, threads); });
   if (model.load) add_stage(forces_, "load", [this] { add_load(); });
   if (contact) {
-    if (cohesive) add_stage(forces_, "surface", [this] { update_surface(); });
+    if (cohesive || elements.has_user_laws()) add_stage(forces_, "surface", [this] { update_surface(); });
     regular_clock_ = clock.add("global_search");
     adaptive_clock_ = clock.add("adaptive_search");
     forces_.push_back({clock.add("search_due"), [this] { search(); }});
@@ -360,7 +363,11 @@ void Simulation::Stages::divide_masses_and_forces() {
 }
 
 void Simulation::Stages::update_surface() {
-  const std::span<const Index> broken = cohesive->broken_now();
+  if (!gone_.empty()) {
+    contact->remove_elements(gone_, topology, nodes);
+    gone_.clear();
+  }
+  const std::span<const Index> broken = cohesive ? cohesive->broken_now() : std::span<const Index>();
   if (broken.empty()) return;
   freed_.clear();
   for (const Index e : broken) {

@@ -94,7 +94,8 @@ struct SurfaceView {
   std::span<const Index> segments;   ///< (m, 4) corners; a triangle has kNone last
   std::span<const Index> edges;      ///< (e, 2); may be empty
   std::span<const Index>
-      groups;  ///< one a node of the mesh; entities of one group >= 0 never pair; may be empty
+      groups;         ///< one a node of the mesh; entities of one group >= 0 never pair; may be empty
+  Index removed = 0;  ///< segments that were removed: all corners one node, left out of the mean length
 };
 
 /// Candidate pairs node-segment and edge-edge (LC-Grid and its adaptive update; Chen, Zang, Xu 2015, section
@@ -188,6 +189,10 @@ class SurfaceContact {
   /// All renames and splits of an insertion in the topology.
   void follow(std::span<const Insertion::NewNode> new_nodes,
               std::span<const Insertion::Renumbered> renumbered);
+  /// The element is no more: its segments and edges leave, and what touches them is let go; what their
+  /// springs held is heat. Nodes that no segment has left take part in no contact. The faces of its
+  /// neighbours that are free now come by `add_facets`. Numbers of segments stay.
+  void remove_element(Index element);
   /// `element` names `new_node` where it named `old_node`, at the same place.
   void rename(Index element, Index old_node, Index new_node);
   /// After all renames of a split: the copy takes its share of what holds the mother.
@@ -204,9 +209,12 @@ class SurfaceContact {
   void local_search(const Arrays& arrays, int threads = 1);
   void add_force(const Arrays& arrays, double step, int threads = 1);
 
-  Index segment_count() const;
+  Index segment_count() const;  ///< removed ones included
+  Index removed_count() const;  ///< segments
   Index edge_count() const;
   Index node_count() const;
+  /// Whether the facet is a segment and has not been removed.
+  bool has_facet(const Topology& topology, FacetUse facet) const;
   std::span<const Index> nodes() const;     ///< contact nodes: rows of the search's pairs
   std::span<const Index> segments() const;  ///< (m, 4), kNone last in a triangle
   const ContactSearch& search() const;
@@ -232,7 +240,7 @@ class SurfaceContact {
     std::array<Index, 2> parts{kNone, kNone};  ///< ascending
     std::array<double, 3> force{};             ///< N, on the first by the second at the last `add_force`
     double stored = 0;                         ///< J, in springs at the last `add_force`
-    double friction_heat = 0;                  ///< J, so far
+    double friction_heat = 0;                  ///< J, so far, and what springs of removed segments held
     double peak_force = 0;                     ///< N, so far
     double deepest = 0;                        ///< m, so far
   };

@@ -32,6 +32,7 @@ struct Contact::Stages {
   std::vector<double> bulk_modulus;  // by part
   std::vector<Index> part_of_element;
   std::unordered_set<std::int64_t> dormant;  // bonded facets
+  std::unordered_set<Index> removed;         // elements
   int threads = 1;
 
   static std::int64_t key(FacetUse use) { return std::int64_t{8} * use.element + use.facet; }
@@ -46,7 +47,7 @@ struct Contact::Stages {
 };
 
 Contact::Contact(const Model& model, const Topology& topology)
-    : stages_(new Stages{SurfaceContact(model.contact), {}, model.mesh.parts, {}}) {
+    : stages_(new Stages{SurfaceContact(model.contact), {}, model.mesh.parts, {}, {}}) {
   Stages& s = *stages_;
   s.surface.name_parts(model.mesh.part_names);
   s.bulk_modulus.assign(model.mesh.part_names.size(), 0);
@@ -85,8 +86,29 @@ void Contact::follow(const Insertion& insertion) {
 }
 
 void Contact::add_segments(std::span<const FacetUse> facets, const Topology& topology, const Nodes& nodes) {
-  for (const FacetUse use : facets) stages_->dormant.erase(Stages::key(use));
-  stages_->add(facets, topology, nodes.reference);
+  Stages& s = *stages_;
+  std::vector<FacetUse> fresh;
+  for (const FacetUse use : facets) {
+    s.dormant.erase(Stages::key(use));
+    if (!s.removed.contains(use.element) && !s.surface.has_facet(topology, use)) fresh.push_back(use);
+  }
+  s.add(fresh, topology, nodes.reference);
+}
+
+void Contact::remove_elements(std::span<const Index> elements, const Topology& topology, const Nodes& nodes) {
+  Stages& s = *stages_;
+  s.removed.insert(elements.begin(), elements.end());
+  std::vector<FacetUse> freed;
+  for (const Index e : elements) {
+    s.surface.remove_element(e);
+    for (Index f = 0; f < topology.facet_count(e); ++f) {
+      s.dormant.erase(Stages::key({e, f}));
+      FacetUse mate = topology.mate({e, f});
+      if (mate.element >= topology.bulk_count()) mate = topology.mate({mate.element, 1 - mate.facet});
+      if (mate.element != kNone) freed.push_back(mate);
+    }
+  }
+  add_segments(freed, topology, nodes);
 }
 
 Contact::Search Contact::due(const Nodes& nodes, double step) {
@@ -126,7 +148,8 @@ Contact::Energy Contact::energy() const {
   return {stages_->surface.stored_energy(), stages_->surface.friction_heat()};
 }
 Index Contact::segment_count() const {
-  return stages_->surface.segment_count() + static_cast<Index>(stages_->dormant.size());
+  return stages_->surface.segment_count() - stages_->surface.removed_count() +
+         static_cast<Index>(stages_->dormant.size());
 }
 double Contact::deepest_penetration() const {
   return stages_->surface.deepest_penetration();

@@ -83,6 +83,10 @@ void SurfaceContact::add_facets(const FacetSource& source, std::span<const Facet
   }
 }
 
+bool SurfaceContact::has_facet(const Topology& topology, FacetUse facet) const {
+  return stages_->surface.has_segment(facet.element, topology.facet_nodes(facet).nodes);
+}
+
 void SurfaceContact::follow(std::span<const Insertion::NewNode> new_nodes,
                             std::span<const Insertion::Renumbered> renumbered) {
   for (const Insertion::Renumbered& r : renumbered) rename(r.element, r.old_node, r.new_node);

@@ -150,7 +150,7 @@ void ContactSearch::Cells::place_segments(const SurfaceView& s, const Threads& t
   });
   double sum = 0;
   for (const double piece : lengths) sum += piece;
-  const double mean = segments > 0 ? sum / segments : 0;
+  const double mean = segments > s.removed ? sum / (segments - s.removed) : 0;
   if (!std::isfinite(mean)) {
     throw Error(Status::diverged,
                 "contact search: a segment's corner has a position that is not finite; reduce the step");

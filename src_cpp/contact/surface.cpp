@@ -99,6 +99,32 @@ void Surface::rename(Index element, Index old_node, Index new_node) {
   }
 }
 
+bool Surface::remove(Index element) {
+  if (element >= static_cast<Index>(first_segment_.size()) || first_segment_[element] == kNone) return false;
+  for (Index s = first_segment_[element]; s != kNone; s = next_segment_[s]) {
+    Index* nodes = &segments_[4 * static_cast<std::size_t>(s)];
+    for (Index i = 0; i < 4 && nodes[i] != kNone; ++i) detach(4 * s + i);
+    nodes[1] = nodes[2] = nodes[0];
+    nodes[3] = kNone;
+    data_[s].height = 0;
+    ++removed_;
+  }
+  for (Index e = first_edge_[element]; e != kNone; e = next_edge_[e]) {
+    edges_[2 * static_cast<std::size_t>(e) + 1] = edges_[2 * static_cast<std::size_t>(e)];
+    edge_data_[e].height = 0;
+  }
+  first_segment_[element] = first_edge_[element] = kNone;
+  return true;
+}
+
+bool Surface::has_segment(Index element, const std::array<Index, 4>& nodes) const {
+  if (element >= static_cast<Index>(first_segment_.size())) return false;
+  for (Index s = first_segment_[element]; s != kNone; s = next_segment_[s]) {
+    if (std::equal(nodes.begin(), nodes.end(), corners(s))) return true;
+  }
+  return false;
+}
+
 std::size_t Surface::memory() const {
   const std::size_t indices = nodes_.capacity() + segments_.capacity() + edges_.capacity() +
                               row_of_node_.capacity() + incident_.capacity() + next_incident_.capacity() +

@@ -121,6 +121,7 @@ void SurfaceContact::regular_search(const Arrays& arrays, int threads) {
   std::fill(s.has_pairs.begin(), s.has_pairs.end(), 0);
   std::fill(s.is_partner.begin(), s.is_partner.end(), 0);
   std::fill(s.edge_has_pairs.begin(), s.edge_has_pairs.end(), 0);
+  s.bar_removed();
   s.active_nodes.clear();
   s.active_segments.clear();
   s.active_edges.clear();
@@ -142,6 +143,7 @@ void SurfaceContact::adaptive_search(const Arrays& arrays) {
       s.view(arrays), s.surface.renamed_segments(),
       s.settings.edge_edge ? std::span<const Index>(s.surface.renamed_edges()) : std::span<const Index>());
   s.grow_to_surface();
+  s.bar_removed();
   for (const Index row : s.search.touched_node_rows()) s.activate_node(arrays.position.data(), row);
   for (const Index edge : s.search.touched_edge_rows()) s.activate_edge(edge);
   s.hits.resize(s.active_nodes.size());

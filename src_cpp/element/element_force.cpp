@@ -9,6 +9,7 @@
 #include "element/element_blocks.hpp"
 #include "element/one_point.hpp"
 #include "element/single_element.hpp"
+#include "material/stored.hpp"
 
 namespace cdfp {
 
@@ -36,7 +37,7 @@ struct ElementForce::Blocks : ElementBlocks {
   std::vector<Mat3> critical_stress;
   std::vector<Index> deleted;  ///< by the last step of users' laws
 
-  void remove(BlockGroup& group, std::size_t slot);
+  void remove(BlockGroup& group, std::size_t slot, std::span<const double> position);
 };
 
 ElementForce::Blocks::Blocks(const Model& model)
@@ -76,9 +77,18 @@ bool ElementForce::Blocks::has_moved(const BlockGroup& group, std::size_t block,
   return false;
 }
 
-/// A deleted element has neither stress nor hourglass stiffness, and does not bound the step.
-void ElementForce::Blocks::remove(BlockGroup& group, std::size_t slot) {
+/// A deleted element has neither stress nor hourglass stiffness, whose energy is lost, and does not bound the
+/// step.
+void ElementForce::Blocks::remove(BlockGroup& group, std::size_t slot, std::span<const double> position) {
+  using host::Stored;
   const std::size_t row = slot / kLanes, lane = slot % kLanes;
+  const double lost = hourglass_density(group, slot, position);
+  Lanes* state = &group.state[row * static_cast<std::size_t>(group.kernel->state)];
+  for (int point = 0; point < group.kernel->state / Stored::kState; ++point) {
+    for (const int k : {Stored::kWork, Stored::kDissipated}) {
+      state[point * Stored::kState + k].value[lane] += lost;
+    }
+  }
   Lanes* constants = &group.constants[row * static_cast<std::size_t>(group.kernel->constants)];
   const auto clear_hourglass = [&]<class Shape>() {
     for (int i = 0; i < 3; ++i) constants[Shape::kStiffness + i].value[lane] = 0;
@@ -142,7 +152,7 @@ std::span<const Index> ElementForce::advance_user_laws(std::span<const double> p
     for (std::size_t block = 0; block < group.blocks(); ++block)
       inputs.push_back(group.input(block, position));
     group.user->advance(*group.kernel, time, step, threads, inputs, group.state.data());
-    for (const std::size_t slot : group.user->take_deleted()) blocks_->remove(group, slot);
+    for (const std::size_t slot : group.user->take_deleted()) blocks_->remove(group, slot, position);
   }
   std::sort(blocks_->deleted.begin(), blocks_->deleted.end());
   return blocks_->deleted;

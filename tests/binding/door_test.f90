@@ -279,7 +279,8 @@ contains
     integer :: done
     integer(int32) :: element
     integer(int64) :: calls
-    character(len=:), allocatable :: stage
+    character(len=:), allocatable :: stage, name
+    type(cdfp_contact_pair) :: between
     real(dp) :: t
 
     call define(model)
@@ -320,6 +321,9 @@ contains
     call check(sim%step_count() == told%steps .and. told%elements == 2 .and. told%threads == 1, 'summary')
     call sim%get_stage(sim%stage_count(), stage, t, calls)
     call check(stage == 'accelerate' .and. calls == told%steps .and. t > 0, 'the last stage of the step')
+    call check(sim%contact_pair_count() == 0, 'nothing has touched')
+    call sim%get_contact_pair(1, stage, name, between, stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'no contact pair 0')
     call sim%get_stage(0, stage, t, calls, stat, message)
     call check_refused(CDFP_BAD_ARGUMENT, 'no stage -1')
     history => sim%history()
@@ -513,6 +517,12 @@ contains
     call check(stored > 0 .and. deepest > 0.9e-3_dp, 'energies')
     added = contact%stiffness_over_mass()
     call check(added > 0, 'springs bound the step')
+    call contact%remove_elements([2_int32])
+    call contact%local_search(x)
+    call contact%get_touches(touches)
+    call check(size(touches) == 0, 'nothing touches an element that is no more')
+    call contact%remove_elements([0_int32], stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'cannot leave the surface')
     v(1, 5) = ieee_nan()
     call contact%search(x, v, 1e-6_dp, stat=stat, errmsg=message)
     call check_refused(CDFP_BAD_ARGUMENT, 'velocity of node 4 is not finite')

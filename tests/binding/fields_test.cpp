@@ -374,6 +374,24 @@ TEST_F(Fields, Results) {
     EXPECT_GT(c.deepest_penetration_m, 0);
   }
   {
+    int64_t count = 0, length = 0;
+    ASSERT_EQ(cdfp_simulation_contact_pair_count(simulation, &count), CDFP_OK);
+    const std::vector<Summary::ContactPair> pairs = native->summary().contact_pairs;
+    ASSERT_EQ(count, 1);
+    ASSERT_EQ(pairs.size(), 1u);
+    const auto [parts, peak, stored, heat, deepest] = pairs[0];
+    cdfp_contact_pair c;
+    ASSERT_EQ(cdfp_simulation_contact_pair(simulation, 0, &c), CDFP_OK);
+    EXPECT_EQ((std::vector{c.peak_force_n, c.stored_j, c.friction_heat_j, c.deepest_penetration_m}),
+              (std::vector{peak, stored, heat, deepest}));
+    EXPECT_GT(c.peak_force_n, 0);
+    for (const int side : {0, 1}) {
+      char name[32];
+      ASSERT_EQ(cdfp_simulation_contact_pair_part(simulation, 0, side, name, sizeof name, &length), CDFP_OK);
+      EXPECT_EQ(name, parts[std::size_t(side)]);
+    }
+  }
+  {
     double time = 0, position[3];
     int32_t layer = 0;
     ASSERT_EQ(cdfp_simulation_first_crack(simulation, "cube", &time, &layer, position), CDFP_OK);
