@@ -39,6 +39,7 @@
 #include "cohesive/cohesive_zone.hpp"
 #include "cohesive/criterion.hpp"
 #include "contact/contact.hpp"
+#include "core/archive.hpp"
 #include "core/parallel.hpp"
 #include "core/stage_clock.hpp"
 #include "core/stress.hpp"
@@ -47,7 +48,9 @@
 #include "integrator/constraints.hpp"
 #include "integrator/rigid_body.hpp"
 #include "monitor/monitor.hpp"
+#include "output/restart_file.hpp"
 #include "scene/bonds.hpp"
+#include "scene/fingerprint.hpp"
 #include "scene/scene.hpp"
 #include "state/nodes.hpp"
 
@@ -79,6 +82,8 @@ struct Simulation::Stages {
   std::vector<PartEnergy> part_energies() const { return elements.energies(nodes.position, threads); }
   Summary summary() const;
   Frame frame() const;
+  void archive(Archive& a);
+  void archive_insertions(Archive& a);
   void set_state(std::vector<double>& field, std::span<const double> values, const char* name);
   void set_positions(std::span<const double> values);
   bool finished() const { return time + 0.5 * step_size >= model.time.end * (1 + 1e-12); }
@@ -109,6 +114,7 @@ struct Simulation::Stages {
   bool positions_are_new = false;  ///< set from outside since the last step
   Index nodes_initial = 0;
   Index segments_initial = 0;
+  Index elements_initial = 0;  ///< of the topology, with bonds
 
  private:
   struct Stage {
@@ -213,6 +219,7 @@ Simulation::Stages::Stages(Model given)
     segments_initial = contact->segment_count();
   }
   insert_bonds();
+  elements_initial = topology.element_count();
   list_stages();
 
   choose_step();
@@ -605,6 +612,56 @@ void Simulation::Stages::add_user_fields(Frame& f) const {
   for (const Summary::Deleted& d : deleted) gone[static_cast<std::size_t>(d.element)] = 1;
 }
 
+/// Facets that have opened, in their order: they make the same topology again, and what follows from it.
+void Simulation::Stages::archive_insertions(Archive& a) {
+  std::vector<FacetUse> opened;
+  for (Index e = elements_initial; e < topology.element_count(); ++e) opened.push_back(topology.mate({e, 1}));
+  a("insertions", opened);
+  if (a.reads()) {
+    for (const FacetUse& lower : opened) insert(lower);
+    split_.clear();
+  }
+  a.require_same("nodes", static_cast<std::uint64_t>(nodes.count()));
+  a.require_same("cohesive_elements", static_cast<std::uint64_t>(topology.element_count()));
+}
+
+void Simulation::Stages::archive(Archive& a) {
+  archive_insertions(a);
+  nodes.archive(a);
+  elements.archive(a);
+  a.require_same("rigid_bodies", bodies.size());
+  for (RigidMotion& body : bodies) body.archive(a);
+  a.require_same("cohesive", cohesive.has_value());
+  if (cohesive) cohesive->archive(a);
+  a.require_same("contact", contact.has_value());
+  if (contact) contact->archive(a);
+  monitor.archive(a);
+  clock.archive(a);
+  a("time", time);
+  a("steps", steps);
+  a("step_size", step_size);
+  a("next_step", next_step_);
+  a("kick", kick);
+  a("stable", stable);
+  a("external_work", external_work);
+  a("work_ahead", work_ahead_);
+  a("initial_energy", initial_energy);
+  a("wall_seconds", wall_seconds);
+  a("positions_are_new", positions_are_new);
+  a("search_anew", search_anew_);
+  a("load", load_);
+  a("warnings", warnings);
+  a("warned_of_step", warned_of_step_);
+  std::uint64_t gone = deleted.size();
+  a("deleted", gone);
+  deleted.resize(gone);
+  for (Summary::Deleted& d : deleted) {
+    a("deleted.element", d.element);
+    a("deleted.part", d.part);
+    a("deleted.time", d.time_s);
+  }
+}
+
 Summary Simulation::Stages::summary() const {
   Summary s;
   s.title = model.title;
@@ -740,6 +797,20 @@ void Simulation::set_positions(std::span<const double> positions) {
 }
 void Simulation::set_velocities(std::span<const double> velocities) {
   stages_->set_state(stages_->nodes.velocity, velocities, "velocities");
+}
+
+void Simulation::save(const std::string& path) const {
+  Archive state;
+  stages_->archive(state);
+  write_restart(path, fingerprint(stages_->model), state.bytes());
+}
+void Simulation::restore(const std::string& path) {
+  if (step_count() > 0) {
+    throw Error(Status::bad_state, "the simulation has made " + std::to_string(step_count()) +
+                                       " steps; restore into one that was just built from the model");
+  }
+  Archive state(read_restart(path, fingerprint(stages_->model)));
+  stages_->archive(state);
 }
 
 const Model& Simulation::model() const {

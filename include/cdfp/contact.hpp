@@ -15,6 +15,8 @@
 
 namespace cdfp {
 
+class Archive;
+
 /// Pairs as compressed rows, with chains for what an adaptive search adds later.
 class PairRows {
  public:
@@ -34,6 +36,7 @@ class PairRows {
   /// All pairs as compressed rows, partners ascending: those of row `r` stand in [start[r], start[r + 1]).
   void compress(std::vector<Index>& start, std::vector<Index>& partners) const;
   std::size_t memory() const;
+  void archive(Archive& a);  ///< for the restart of a simulation
 
   /// What one thread found for its share of the partners, one partner after another.
   class Found {
@@ -133,6 +136,7 @@ class ContactSearch {
   std::span<const Index> touched_node_rows() const;
   std::span<const Index> touched_edge_rows() const;
   std::size_t memory() const;
+  void archive(Archive& a);  ///< for the restart of a simulation
 
  private:
   struct Cells;
@@ -255,6 +259,7 @@ class SurfaceContact {
   /// 1/s2: bound on omega^2 of the contact springs alone (largest row sum of M^-1 K) at the last `add_force`.
   double stiffness_over_mass() const;
   std::size_t memory() const;
+  void archive(Archive& a);  ///< for the restart of a simulation
 
  private:
   struct Stages;

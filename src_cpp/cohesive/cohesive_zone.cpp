@@ -943,4 +943,20 @@ CohesiveZone::Cost CohesiveZone::cost() const {
   return sum;
 }
 
+void CohesiveZone::archive(Archive& a) {
+  Points& p = *points_;
+  a("cohesive.facets", p.facets);
+  a("cohesive.points", p.points);
+  a("cohesive.live", p.live);
+  p.clusters.archive(a);
+  for (UserPoints& user : p.users) user.archive(a);
+  a("cohesive.couples", p.couples);
+  a("cohesive.broken_elements", p.broken_elements);
+  a("cohesive.broken_count", p.broken_count);
+  a("cohesive.bulk_count", p.bulk_count);
+  a("cohesive.closed", p.closed);
+  a("cohesive.ahead_of_closed", p.ahead_of_closed);
+  a("cohesive.ahead_of_couples", p.ahead_of_couples);
+}
+
 }  // namespace cdfp

@@ -7,6 +7,7 @@
 
 #include "cdfp/contact.hpp"
 #include "cdfp/error.hpp"
+#include "core/archive.hpp"
 
 namespace cdfp {
 
@@ -164,6 +165,19 @@ std::size_t Contact::pair_count() const {
 std::size_t Contact::touching_count() const {
   return stages_->surface.touching_count();
 }
+void Contact::archive(Archive& a) {
+  Stages& s = *stages_;
+  s.surface.archive(a);
+  std::vector<std::int64_t> dormant(s.dormant.begin(), s.dormant.end());
+  std::vector<Index> removed(s.removed.begin(), s.removed.end());
+  std::sort(dormant.begin(), dormant.end());
+  std::sort(removed.begin(), removed.end());
+  a("contact.dormant", dormant);
+  a("contact.removed", removed);
+  s.dormant = {dormant.begin(), dormant.end()};
+  s.removed = {removed.begin(), removed.end()};
+}
+
 double Contact::stiffness_over_mass() const {
   return stages_->surface.stiffness_over_mass();
 }

@@ -53,6 +53,7 @@ class Contact {
   std::vector<std::string> warnings() const;
   std::size_t pair_count() const;  ///< candidates of the last search
   std::size_t touching_count() const;
+  void archive(Archive& a);
   /// Largest contact stiffness at a node over its mass, 1/s2, of the last `add_force`: for the stable step.
   double stiffness_over_mass() const;
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cdfp/contact.hpp"
+#include "core/archive.hpp"
 
 namespace cdfp {
 
@@ -72,6 +73,7 @@ class Surface {
     renamed_segments_.clear();
     renamed_edges_.clear();
   }
+  void archive(Archive& a);
   std::size_t memory() const;
 
  private:

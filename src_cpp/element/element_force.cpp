@@ -38,6 +38,7 @@ struct ElementForce::Blocks : ElementBlocks {
   std::vector<Index> deleted;  ///< by the last step of users' laws
 
   void remove(BlockGroup& group, std::size_t slot, std::span<const double> position);
+  static void clear_stiffness(BlockGroup& group, std::size_t slot);
 };
 
 ElementForce::Blocks::Blocks(const Model& model)
@@ -89,6 +90,12 @@ void ElementForce::Blocks::remove(BlockGroup& group, std::size_t slot, std::span
       state[point * Stored::kState + k].value[lane] += lost;
     }
   }
+  clear_stiffness(group, slot);
+  deleted.push_back(group.elements[slot]);
+}
+
+void ElementForce::Blocks::clear_stiffness(BlockGroup& group, std::size_t slot) {
+  const std::size_t row = slot / kLanes, lane = slot % kLanes;
   Lanes* constants = &group.constants[row * static_cast<std::size_t>(group.kernel->constants)];
   const auto clear_hourglass = [&]<class Shape>() {
     for (int i = 0; i < 3; ++i) constants[Shape::kStiffness + i].value[lane] = 0;
@@ -96,7 +103,6 @@ void ElementForce::Blocks::remove(BlockGroup& group, std::size_t slot, std::span
   if (group.kind == BlockKind::prism_stored) clear_hourglass.operator()<host::Prism>();
   if (group.kind == BlockKind::hexahedron_stored) clear_hourglass.operator()<host::Hexahedron>();
   for (int k = 0; k < 4; ++k) group.step_terms[4 * row + static_cast<std::size_t>(k)].value[lane] = 0;
-  deleted.push_back(group.elements[slot]);
 }
 
 /// Through a set of bits, so that any number of elements comes out ascending in linear time.
@@ -319,6 +325,24 @@ Index ElementForce::first_inverted(std::span<const double> position) const {
     if (!(volume > 0) || !std::isfinite(volume)) return static_cast<Index>(e);
   }
   return kNone;
+}
+
+void ElementForce::archive(Archive& a) {
+  Blocks& b = *blocks_;
+  for (BlockGroup& group : b.groups) {
+    a.require_same("elements.components", group.state.size());
+    a("elements.state", group.state);
+    if (!group.user) continue;
+    group.user->archive(a);
+    for (std::size_t slot = 0; a.reads() && slot < group.elements.size(); ++slot) {
+      if (group.user->is_deleted(slot)) Blocks::clear_stiffness(group, slot);
+    }
+  }
+  a.require_same("elements.blocks", b.block_count);
+  a("elements.awake", b.is_awake);
+  a("elements.critical", b.critical_now);
+  a("elements.critical_stress", b.critical_stress);
+  if (a.reads() && !b.critical_set.empty()) b.list_critical();
 }
 
 std::size_t ElementForce::memory() const {

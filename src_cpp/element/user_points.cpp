@@ -442,6 +442,14 @@ void UserPoints::advance(const BlockKernel& kernel, double time, double step, co
   now_ = 1 - now_;
 }
 
+void UserPoints::archive(Archive& a) {
+  a.require_same("user_points.store", store_.size());
+  a("user_points.values", store_);
+  a("user_points.half", now_);
+  a("user_points.alive", alive_);
+  a("user_points.gone", gone_);
+}
+
 std::vector<std::size_t> UserPoints::take_deleted() {
   std::vector<std::size_t> slots;
   slots.swap(deleted_);

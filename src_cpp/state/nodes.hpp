@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cdfp/types.hpp"
+#include "core/archive.hpp"
 #include "core/vec3.hpp"
 
 namespace cdfp {
@@ -35,6 +36,16 @@ struct Nodes {
   Vec3 v(Index n) const { return Vec3::load(&velocity[3 * static_cast<std::size_t>(n)]); }
   Vec3 f(Index n) const { return Vec3::load(&force[3 * static_cast<std::size_t>(n)]); }
   Vec3 x0(Index n) const { return Vec3::load(&reference[3 * static_cast<std::size_t>(n)]); }
+
+  void archive(Archive& a) {
+    a("nodes.reference", reference);
+    a("nodes.position", position);
+    a("nodes.velocity", velocity);
+    a("nodes.force", force);
+    a("nodes.mass", mass);
+    a("nodes.fixed", fixed);
+    a("nodes.body", body);
+  }
 
   /// Appends a copy of `mother` (all but its mass, which the caller divides) and returns its number.
   Index clone(Index mother) {
