@@ -18,6 +18,11 @@ void show(std::span<const double> values, std::size_t per_node, const double** d
   *nodes = static_cast<int64_t>(values.size() / per_node);
 }
 
+void need_folder(const char* folder) {
+  need(folder, "folder");
+  if (*folder == '\0') refuse("argument 'folder' is empty; name a folder, such as 'out'");
+}
+
 /// Parts whose cracks get a picture each.
 std::vector<std::string> parts_that_crack(const Model& model) {
   std::vector<std::string> names;
@@ -113,6 +118,22 @@ int32_t cdfp_simulation_set_monitor(cdfp_simulation* simulation, cdfp_step_callb
     const Change s(simulation);
     s->monitor = callback;
     s->user_data = user_data;
+  });
+}
+
+int32_t cdfp_simulation_save(const cdfp_simulation* simulation, const char* path) {
+  return guarded(__func__, [&] {
+    const Look s(simulation);
+    need(path, "path");
+    s->save(path);
+  });
+}
+
+int32_t cdfp_simulation_restore(cdfp_simulation* simulation, const char* path) {
+  return guarded(__func__, [&] {
+    const Change s(simulation);
+    need(path, "path");
+    s->restore(path);
   });
 }
 
@@ -377,10 +398,20 @@ int32_t cdfp_recorder_create(const cdfp_simulation* simulation, const char* fold
                              cdfp_recorder** recorder) {
   return guarded(__func__, [&] {
     const Look s(simulation);
-    need(folder, "folder");
+    need_folder(folder);
     need(recorder, "recorder");
-    if (*folder == '\0') refuse("argument 'folder' is empty; name a folder, such as 'out'");
     give(std::make_shared<Recorder>(folder, parts_that_crack(s->model())), recorder);
+  });
+}
+
+int32_t cdfp_recorder_continue(const cdfp_simulation* simulation, const char* folder,
+                               cdfp_recorder** recorder) {
+  return guarded(__func__, [&] {
+    const Look s(simulation);
+    need_folder(folder);
+    need(recorder, "recorder");
+    give(std::make_shared<Recorder>(Recorder::continued(folder, parts_that_crack(s->model()), s->time())),
+         recorder);
   });
 }
 

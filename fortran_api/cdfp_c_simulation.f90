@@ -70,6 +70,20 @@ module cdfp_c_simulation
       integer(c_int32_t) :: status
     end function
 
+    function cdfp_simulation_save(simulation, path) bind(c) result(status)
+      import
+      type(c_ptr), value :: simulation
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_simulation_restore(simulation, path) bind(c) result(status)
+      import
+      type(c_ptr), value :: simulation
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function
+
     function cdfp_simulation_finished(simulation, finished) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
@@ -305,6 +319,14 @@ module cdfp_c_simulation
     end function
 
     function cdfp_recorder_create(simulation, folder, recorder) bind(c) result(status)
+      import
+      type(c_ptr), value :: simulation
+      character(kind=c_char), intent(in) :: folder(*)
+      type(c_ptr), intent(inout) :: recorder
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_recorder_continue(simulation, folder, recorder) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
       character(kind=c_char), intent(in) :: folder(*)

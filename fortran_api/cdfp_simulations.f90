@@ -18,6 +18,8 @@ module cdfp_simulations
     procedure :: step
     procedure :: advance
     procedure :: advance_to
+    procedure :: save => save_simulation
+    procedure :: restore
     procedure :: set_monitor
     procedure :: set_positions
     procedure :: set_velocities
@@ -56,6 +58,7 @@ module cdfp_simulations
     type(counted_handle) :: handle
   contains
     procedure :: create => create_recorder
+    procedure :: continue_in
     procedure :: free => free_recorder
     procedure :: snapshot
     procedure :: finish
@@ -133,6 +136,28 @@ contains
     count = 0
     call report(cdfp_simulation_advance_to(this%handle%address, time, count), stat, errmsg)
     if (present(done)) done = int(count)
+  end subroutine
+
+  !> Writes all that the next step needs into a file, which takes its place when it is whole.
+  subroutine save_simulation(this, path, stat, errmsg)
+    class(cdfp_simulation), intent(in) :: this
+    character(len=*), intent(in) :: path
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_simulation_save(this%handle%address, c_text(path)), stat, errmsg)
+  end subroutine
+
+  !> Goes on from there, in a simulation that was built from the same model and not stepped yet: it takes the
+  !> same steps to the bit, with any number of threads. Title, threads, time and output of the model may be
+  !> others. What your procedures keep for themselves is theirs to bring back.
+  subroutine restore(this, path, stat, errmsg)
+    class(cdfp_simulation), intent(in) :: this
+    character(len=*), intent(in) :: path
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_simulation_restore(this%handle%address, c_text(path)), stat, errmsg)
   end subroutine
 
   !> `callback` is `c_funloc` of a `bind(c)` function with an `integer(c_int32_t)` result and the arguments
@@ -570,6 +595,22 @@ contains
 
     made = c_null_ptr
     status = cdfp_recorder_create(simulation%handle%address, c_text(folder), made)
+    call this%handle%own(made)
+    call report(status, stat, errmsg)
+  end subroutine
+
+  !> For a simulation that was restored: keeps what the run up to then has left in the folder.
+  subroutine continue_in(this, simulation, folder, stat, errmsg)
+    class(cdfp_recorder), intent(inout) :: this
+    type(cdfp_simulation), intent(in) :: simulation
+    character(len=*), intent(in) :: folder
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: made
+    integer(c_int32_t) :: status
+
+    made = c_null_ptr
+    status = cdfp_recorder_continue(simulation%handle%address, c_text(folder), made)
     call this%handle%own(made)
     call report(status, stat, errmsg)
   end subroutine

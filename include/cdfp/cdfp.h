@@ -402,6 +402,14 @@ int32_t cdfp_simulation_advance(cdfp_simulation* simulation, int64_t steps, int6
 /** Steps until half a step from `time` or nearer, or the end; `done` may be NULL. */
 int32_t cdfp_simulation_advance_to(cdfp_simulation* simulation, double time, int64_t* done);
 
+/** Writes all that the next step needs into a file, which takes its place when it is whole. */
+int32_t cdfp_simulation_save(const cdfp_simulation* simulation, const char* path);
+/** Goes on from there, in a simulation that was built from the same model and not stepped yet: it takes the
+ *  same steps to the bit, with any number of threads. Title, threads, time and output of the model may be
+ *  others. What callbacks keep for themselves is theirs to bring back. CDFP_BAD_INPUT for a file that is cut
+ *  short, damaged, of another model or version; nothing is changed then. */
+int32_t cdfp_simulation_restore(cdfp_simulation* simulation, const char* path);
+
 /** Called after every step with the handle that was stepped; not 0: no further step of this call. It may look
  *  at the simulation and change its state, but not step it. */
 typedef int32_t (*cdfp_step_callback)(cdfp_simulation* simulation, void* user_data);
@@ -479,6 +487,9 @@ int32_t cdfp_simulation_history_column(const cdfp_simulation* simulation, int64_
 
 /** Makes the folder and removes from it what an earlier run left. */
 int32_t cdfp_recorder_create(const cdfp_simulation* simulation, const char* folder, cdfp_recorder** recorder);
+/** For a simulation that was restored: keeps what the run up to then has left in the folder. */
+int32_t cdfp_recorder_continue(const cdfp_simulation* simulation, const char* folder,
+                               cdfp_recorder** recorder);
 int32_t cdfp_recorder_free(cdfp_recorder** recorder);
 /** The state now as a snapshot for ParaView, and the history so far. */
 int32_t cdfp_recorder_snapshot(cdfp_recorder* recorder, const cdfp_simulation* simulation);

@@ -3,8 +3,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 
 #include "core/archive.hpp"
@@ -64,10 +62,8 @@ void write_restart(const std::filesystem::path& path, const Fingerprint& fingerp
 
 std::string read_restart(const std::filesystem::path& path, const Fingerprint& fingerprint) {
   errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  std::string bytes;
-  if (stream) bytes.assign(std::istreambuf_iterator<char>(stream), {});
-  if (!stream || bytes.empty()) {
+  const std::string bytes = contents_of(path);
+  if (bytes.empty()) {
     throw Error(Status::io, "cannot read the restart file '" + path.string() +
                                 "': " + (errno != 0 ? std::strerror(errno) : "it is empty") +
                                 "; give a file that a run has saved");

@@ -196,6 +196,7 @@ void check_settings(const Model& model) {
           "time: fixed_step must not be negative (0 chooses the step automatically)");
   require(model.time.step_factor > 0 && model.time.step_factor <= 1, "time: step_factor must lie in (0, 1]");
   require(model.output.history_interval >= 1, "output: history_interval must be at least 1 step");
+  require(model.output.restart_interval >= 0, "output: restart_interval must not be negative");
   for (const double t : model.output.snapshot_times) require(t >= 0, "output: a snapshot time is negative");
   require(model.threads >= 0, "threads must not be negative (0: as many as the machine has)");
 }

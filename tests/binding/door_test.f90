@@ -530,10 +530,11 @@ contains
 
   subroutine state_between_steps()
     type(cdfp_model) :: model
-    type(cdfp_simulation) :: sim
+    type(cdfp_simulation) :: sim, again, same
     type(cdfp_energies) :: energy
     real(dp), pointer :: view(:, :)
     real(dp), allocatable :: v(:, :)
+    integer :: unit
     real(dp) :: stress(6, 2)
 
     call define(model)
@@ -558,6 +559,20 @@ contains
     call sim%set_positions(v)
     call sim%get_stresses(stress)
     call check(all(abs(stress(3, :) - 1e-5_dp*74e9_dp*0.8_dp/(1.2_dp*0.6_dp)) < 1e3_dp), 'stretched')
+    call sim%save('door_test_restart')
+    call again%create(model)
+    call again%restore('door_test_restart')
+    call sim%advance(4)
+    call again%advance(4)
+    call check(again%step_count() == sim%step_count(), 'steps of the run that went on')
+    call check(same_bits(again%positions(), sim%positions()), 'the same bits')
+    call again%restore('door_test_restart', stat, message)
+    call check_refused(CDFP_BAD_STATE, '9 steps')
+    call same%create(model)
+    call same%restore('no such file', stat, message)
+    call check_refused(CDFP_IO, 'cannot read the restart file')
+    open (newunit=unit, file='door_test_restart')
+    close (unit, status='delete')
     call sim%get_stresses(stress(:, :1), stat, message)
     call check_refused(CDFP_BAD_ARGUMENT, 'the simulation has 2')
   end subroutine

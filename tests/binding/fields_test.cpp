@@ -261,9 +261,11 @@ TEST_F(Fields, Settings) {
     EXPECT_EQ((Vector{end, fixed_step, step_factor}), (Vector{6, 7, 8}));
   }
   {
-    const auto& [snapshot_times, history_interval] = output;  // the caller's loop has its own times
+    const auto& [snapshot_times, history_interval, restart_interval] =
+        output;  // the caller's loop has its own times
     EXPECT_TRUE(snapshot_times.empty());
     EXPECT_EQ(history_interval, 9);
+    EXPECT_EQ(restart_interval, 0);
   }
 }
 
