@@ -40,6 +40,7 @@
 #include "cohesive/criterion.hpp"
 #include "contact/contact.hpp"
 #include "core/archive.hpp"
+#include "core/numbered.hpp"
 #include "core/parallel.hpp"
 #include "core/stage_clock.hpp"
 #include "core/stress.hpp"
@@ -407,7 +408,7 @@ void Simulation::Stages::add_load() {
   for (std::size_t i = 0; i < load_.size(); ++i) {
     load_[i] = nodes.force[i] - load_[i];
     if (!std::isfinite(load_[i])) {
-      throw Error(Status::diverged, "the load at node " + std::to_string(i / 3) +
+      throw Error(Status::diverged, "the load at node " + numbered(i / 3) +
                                         " is not a finite number at time " + std::to_string(1e6 * time) +
                                         " us; check the load callback");
     }
@@ -431,7 +432,7 @@ void Simulation::Stages::set_state(std::vector<double>& field, std::span<const d
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (std::isfinite(values[i])) continue;
     throw Error(Status::bad_argument,
-                std::string("'") + name + "' of node " + std::to_string(i / 3) + " is not a finite number");
+                std::string("'") + name + "' of node " + numbered(i / 3) + " is not a finite number");
   }
   const auto energy = [this] {
     const Energies e = energies(part_energies());
@@ -471,8 +472,7 @@ void Simulation::Stages::choose_step() {
   stable = elements.stable_step(nodes.position, threads);
   if (!(stable.step > 0) || !std::isfinite(stable.step)) {
     throw Error(Status::diverged,
-                "no stable step at time " + std::to_string(time) + " s: element " +
-                    std::to_string(stable.element) +
+                "no stable step at time " + std::to_string(time) + " s: element " + numbered(stable.element) +
                     " is inverted or not finite; take a smaller step or a coarser mesh there");
   }
   const double fixed = model.time.fixed_step;
@@ -500,7 +500,7 @@ void Simulation::Stages::record() {
   if (!std::isfinite(now.balance())) {
     const Index element = elements.first_inverted(nodes.position);
     const std::string at = element == kNone ? ""
-                                            : "element " + std::to_string(element) + " (part '" +
+                                            : "element " + numbered(element) + " (part '" +
                                                   model.mesh.part_names[model.mesh.parts[element]] +
                                                   "') is the first that is inverted; ";
     throw Error(Status::diverged, "the state is no longer finite at time " + std::to_string(1e6 * time) +
@@ -826,8 +826,8 @@ Index Simulation::body_count() const {
 
 Simulation::BodyState Simulation::body(Index rigid_body) const {
   if (rigid_body < 0 || rigid_body >= body_count()) {
-    throw Error(Status::bad_argument, "there is no rigid body " + std::to_string(rigid_body) +
-                                          "; the scene has " + std::to_string(body_count()));
+    throw Error(Status::bad_argument, "there is no rigid body " + numbered(rigid_body) + "; the scene has " +
+                                          std::to_string(body_count()));
   }
   const RigidMotion& motion = stages_->bodies[rigid_body];
   BodyState state;

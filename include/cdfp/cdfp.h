@@ -44,6 +44,8 @@ enum {
 
 /** Text of the last call that failed on this thread; empty if none did. */
 int32_t cdfp_last_error(char* text, int64_t capacity, int64_t* length);
+/** The same for callers who count elements, nodes, facets and parts from 1. */
+int32_t cdfp_last_error_from_1(char* text, int64_t capacity, int64_t* length);
 
 /** Version of the library that runs: major, minor, patch. */
 int32_t cdfp_version(int32_t* major, int32_t* minor, int32_t* patch);

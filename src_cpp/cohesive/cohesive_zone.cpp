@@ -15,6 +15,7 @@
 #include "cohesive/facet_frame.hpp"
 #include "cohesive/law.hpp"
 #include "cohesive/user_points.hpp"
+#include "core/numbered.hpp"
 
 namespace cdfp {
 
@@ -787,7 +788,7 @@ void CohesiveZone::insert(const Topology& topology, const Insertion& insertion, 
   inserted.insertion_time = time;
   if (inserted.law < 0) {
     throw Error(Status::bad_argument,
-                "element " + std::to_string(insertion.lower.element) +
+                "element " + numbered(insertion.lower.element) +
                     " belongs to a part without a cohesive law; its facets cannot open");
   }
   points_->insert(topology, insertion, inserted, nodes);

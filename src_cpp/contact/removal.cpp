@@ -5,6 +5,7 @@
 
 #include "cdfp/contact.hpp"
 #include "contact/stages.hpp"
+#include "core/numbered.hpp"
 #include "core/require.hpp"
 
 namespace cdfp {
@@ -42,7 +43,7 @@ void SurfaceContact::Stages::bar_removed() {
 
 void SurfaceContact::remove_element(Index element) {
   require(element >= 0,
-          "element " + std::to_string(element) + " cannot leave the surface; elements count from 0");
+          "element " + numbered(element) + " cannot leave the surface; elements count from " + numbered(0));
   if (stages_->surface.remove(element)) stages_->let_go_of_removed();
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cdfp/error.hpp"
+#include "core/numbered.hpp"
 
 namespace cdfp {
 
@@ -39,8 +40,7 @@ Index Surface::add_segment(const SurfaceContact::Segment& segment) {
   if (segment.element < 0 || !(segment.area > 0) || !(segment.volume > 0) || !(segment.bulk_modulus > 0) ||
       *std::min_element(segment.nodes.begin(), segment.nodes.begin() + 3) < 0) {
     throw Error(Status::bad_argument,
-                "contact segment " + std::to_string(number) + " of element " +
-                    std::to_string(segment.element) +
+                "contact segment " + numbered(number) + " of element " + numbered(segment.element) +
                     ": element and corners must be given, area, volume and bulk modulus positive");
   }
   data_.push_back({penalty_factor_ * segment.bulk_modulus * segment.area * segment.area / segment.volume,

@@ -21,8 +21,8 @@ namespace {
 void remove_earlier(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::vector<std::filesystem::path> earlier;
-  for (const char* name :
-       {"results.pvd", "cracks.pvd", "history.csv", "results.h5", "summary.json", "restart.cdfp"})
+  for (const char* name : {"results.pvd", "cracks.pvd", "history.csv", "results.h5", "summary.json",
+                           "restart.cdfp", "snapshots/pictures.cdfp"})
     earlier.push_back(folder / name);
   for (const auto& entry : std::filesystem::directory_iterator(folder / "snapshots", ignored))
     if (entry.path().extension() == ".vtu") earlier.push_back(entry.path());

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "cohesive/check_law.hpp"
+#include "core/numbered.hpp"
 #include "core/require.hpp"
 #include "scene/scene.hpp"
 
@@ -140,7 +141,7 @@ void check_rigid_nodes(const Model& model) {
       Index& seen = owner[node];
       if (seen != kNone && seen != part && (rigid_part[part] || rigid_part[seen])) {
         refuse(
-            "node " + std::to_string(node) + " belongs to part '" + mesh.part_names[part] + "' and part '" +
+            "node " + numbered(node) + " belongs to part '" + mesh.part_names[part] + "' and part '" +
             mesh.part_names[seen] +
             "', of which one is rigid; give the rigid part nodes of its own and let them touch by contact");
       }
