@@ -1,4 +1,5 @@
 #include "c_gate.hpp"
+#include "core/numbered.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -28,6 +29,7 @@ std::uintptr_t number(const void* handle) {
 }
 
 thread_local char error_text[4096] = "";
+thread_local char error_from_1[4096] = "";
 
 void* new_handle(std::shared_ptr<Kept> kept) {
   const std::uintptr_t handle = ++table().last;
@@ -100,16 +102,31 @@ Lease::~Lease() {
   }
 }
 
-std::int32_t remember(Status status, const char* function, const char* message) noexcept {
+std::int32_t remember(Status status, const char* function, const char* message,
+                      const char* counted_from_1) noexcept {
   std::snprintf(error_text, sizeof error_text, "%s: %s", function, message);
+  std::snprintf(error_from_1, sizeof error_from_1, "%s: %s", function,
+                counted_from_1 ? counted_from_1 : message);
   return static_cast<std::int32_t>(status);
 }
+
+namespace {
+
+std::int32_t remember_error(const Error& error, const char* function) noexcept {
+  try {
+    return remember(error.status(), function, error.what(), error.counted_from(1).c_str());
+  } catch (const std::exception&) {
+    return remember(error.status(), function, error.what());
+  }
+}
+
+}  // namespace
 
 std::int32_t remember_exception(const char* function) noexcept {
   try {
     throw;
   } catch (const Error& error) {
-    return remember(error.status(), function, error.what());
+    return remember_error(error, function);
   } catch (const std::bad_alloc&) {
     return remember(Status::internal, function, "out of memory; take a smaller model");
   } catch (const std::exception& error) {
@@ -145,8 +162,8 @@ void need_array(const void* array, std::int64_t count, const char* name) {
 
 void need_number(std::int64_t number, std::int64_t count, const char* what) {
   if (number >= 0 && number < count) return;
-  refuse("there is no " + std::string(what) + " " + std::to_string(number) + "; there are " +
-         std::to_string(count) + ", counted from 0");
+  refuse("there is no " + std::string(what) + " " + numbered(number) + "; there are " +
+         std::to_string(count) + ", counted from " + numbered(0));
 }
 
 void copy_text(std::string_view from, char* text, std::int64_t capacity, std::int64_t* length) {
@@ -166,6 +183,12 @@ using namespace cdfp::gate;
 int32_t cdfp_last_error(char* text, int64_t capacity, int64_t* length) {
   if (!length || (!text && capacity > 0)) return CDFP_BAD_ARGUMENT;
   copy_text(error_text, text, capacity, length);
+  return CDFP_OK;
+}
+
+int32_t cdfp_last_error_from_1(char* text, int64_t capacity, int64_t* length) {
+  if (!length || (!text && capacity > 0)) return CDFP_BAD_ARGUMENT;
+  copy_text(error_from_1, text, capacity, length);
   return CDFP_OK;
 }
 

@@ -164,8 +164,10 @@ void give(std::shared_ptr<typename Held<Handle>::Object> object, Handle** handle
 
 // ---- errors ----
 
-/// Keeps the text for `cdfp_last_error` and returns the status; never throws.
-std::int32_t remember(Status status, const char* function, const char* message) noexcept;
+/// Keeps the text for `cdfp_last_error` and returns the status; never throws. `counted_from_1`: the same
+/// where elements and nodes count from 1; null if it names none.
+std::int32_t remember(Status status, const char* function, const char* message,
+                      const char* counted_from_1 = nullptr) noexcept;
 /// The same for the exception that is being handled.
 std::int32_t remember_exception(const char* function) noexcept;
 

@@ -2,6 +2,7 @@
 #include <cstddef>
 
 #include "c_gate.hpp"
+#include "core/numbered.hpp"
 
 using namespace cdfp;
 using namespace cdfp::gate;
@@ -27,7 +28,7 @@ struct Given {
       const double* v = normals + 3 * i;
       const double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
       if (!(square > 0.99 && square < 1.01)) {
-        refuse("the normal of point " + std::to_string(i) + " is not of length 1; normalise it");
+        refuse("the normal of point " + numbered(i) + " is not of length 1; normalise it");
       }
     }
   }
@@ -48,7 +49,7 @@ void follow_law(const Given& given, const Law& law, const double* opening, cdfp_
   const std::span<const double> openings = given.vectors_of(opening, "opening");
   for (std::size_t i = 0; i < given.n; ++i) {
     if (!(points[i].strength > 0)) {
-      refuse("point " + std::to_string(i) + " has no strength; start it by cdfp_cohesive_law_start");
+      refuse("point " + numbered(i) + " has no strength; start it by cdfp_cohesive_law_start");
     }
   }
   law(given.law, openings, given.normal, {reinterpret_cast<CohesivePoint*>(points), given.n},
@@ -118,7 +119,7 @@ void add_law(Held<cdfp_cohesive>::Object& cohesive, const CohesiveLaw& law, int3
 int32_t cdfp_cohesive_add_law(cdfp_cohesive* cohesive, const cdfp_cohesive_law* law, int32_t* number) {
   return guarded(__func__, [&] {
     const Change c(cohesive);
-    add_law(*c, law_of(std::to_string(c->laws.size()).c_str(), law), number);
+    add_law(*c, law_of(numbered(std::ssize(c->laws)).c_str(), law), number);
   });
 }
 
@@ -127,7 +128,7 @@ int32_t cdfp_cohesive_add_user_law(cdfp_cohesive* cohesive, const cdfp_cohesive_
                                    int32_t* number) {
   return guarded(__func__, [&] {
     const Change c(cohesive);
-    CohesiveLaw given = law_of(std::to_string(c->laws.size()).c_str(), law);
+    CohesiveLaw given = law_of(numbered(std::ssize(c->laws)).c_str(), law);
     given.kind = CohesiveKind::user;
     set_callback(given, callback, states, user_data);
     add_law(*c, given, number);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "c_gate.hpp"
+#include "core/numbered.hpp"
 
 using namespace cdfp;
 using namespace cdfp::gate;
@@ -17,7 +18,7 @@ void need_finite(std::span<const double> x, std::span<const Index> nodes, const 
   for (const Index n : nodes) {
     const double* v = &x[3 * static_cast<std::size_t>(n)];
     if (std::isfinite(v[0] + v[1] + v[2])) continue;
-    refuse("the " + std::string(what) + " of node " + std::to_string(n) +
+    refuse("the " + std::string(what) + " of node " + numbered(n) +
            " is not finite; the state is lost: take a smaller step");
   }
 }
@@ -38,8 +39,8 @@ void need_nodes(std::span<const Index> given, std::size_t nodes, bool triangles,
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (given[i] >= 0 && given[i] < static_cast<Index>(nodes)) continue;
     if (triangles && i % 4 == 3 && given[i] == kNone) continue;
-    refuse("'" + std::string(name) + "' names node " + std::to_string(given[i]) + "; there are " +
-           std::to_string(nodes) + ", counted from 0");
+    refuse("'" + std::string(name) + "' names node " + numbered(given[i]) + "; there are " +
+           std::to_string(nodes) + ", counted from " + numbered(0));
   }
 }
 
@@ -257,7 +258,7 @@ int32_t cdfp_contact_name_part(cdfp_contact* contact, int32_t part, const char* 
   return guarded(__func__, [&] {
     const Change c(contact);
     need(name, "name");
-    if (part < 0) refuse("there is no part " + std::to_string(part) + "; parts count from 0");
+    if (part < 0) refuse("there is no part " + numbered(part) + "; parts count from " + numbered(0));
     if (c->part_names.size() <= static_cast<std::size_t>(part)) c->part_names.resize(part + 1);
     c->part_names[part] = name;
     c->contact.name_parts(c->part_names);
@@ -315,6 +316,15 @@ int32_t cdfp_contact_follow(cdfp_contact* contact, int64_t new_node_count, const
     const Change c(contact);
     const Changes changes(new_node_count, new_nodes, renumbered_count, renumbered);
     c->contact.follow(changes.new_nodes, changes.renumbered);
+  });
+}
+
+int32_t cdfp_contact_remove_elements(cdfp_contact* contact, int64_t count, const int32_t* elements) {
+  return guarded(__func__, [&] {
+    const Change c(contact);
+    const std::size_t n = size_of(count, "count");
+    need_array(elements, count, "elements");
+    for (std::size_t i = 0; i < n; ++i) c->contact.remove_element(elements[i]);
   });
 }
 

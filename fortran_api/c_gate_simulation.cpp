@@ -18,6 +18,11 @@ void show(std::span<const double> values, std::size_t per_node, const double** d
   *nodes = static_cast<int64_t>(values.size() / per_node);
 }
 
+void need_folder(const char* folder) {
+  need(folder, "folder");
+  if (*folder == '\0') refuse("argument 'folder' is empty; name a folder, such as 'out'");
+}
+
 /// Parts whose cracks get a picture each.
 std::vector<std::string> parts_that_crack(const Model& model) {
   std::vector<std::string> names;
@@ -113,6 +118,22 @@ int32_t cdfp_simulation_set_monitor(cdfp_simulation* simulation, cdfp_step_callb
     const Change s(simulation);
     s->monitor = callback;
     s->user_data = user_data;
+  });
+}
+
+int32_t cdfp_simulation_save(const cdfp_simulation* simulation, const char* path) {
+  return guarded(__func__, [&] {
+    const Look s(simulation);
+    need(path, "path");
+    s->save(path);
+  });
+}
+
+int32_t cdfp_simulation_restore(cdfp_simulation* simulation, const char* path) {
+  return guarded(__func__, [&] {
+    const Change s(simulation);
+    need(path, "path");
+    s->restore(path);
   });
 }
 
@@ -287,6 +308,36 @@ int32_t cdfp_simulation_first_crack(const cdfp_simulation* simulation, const cha
   });
 }
 
+int32_t cdfp_simulation_contact_pair_count(const cdfp_simulation* simulation, int64_t* count) {
+  return guarded(__func__, [&] {
+    set(count, static_cast<int64_t>(Look(simulation)->summary().contact_pairs.size()), "count");
+  });
+}
+
+int32_t cdfp_simulation_contact_pair(const cdfp_simulation* simulation, int64_t pair,
+                                     cdfp_contact_pair* values) {
+  return guarded(__func__, [&] {
+    const std::vector<Summary::ContactPair> pairs = Look(simulation)->summary().contact_pairs;
+    need_number(pair, static_cast<int64_t>(pairs.size()), "contact pair");
+    need(values, "values");
+    const Summary::ContactPair& p = pairs[pair];
+    *values = {.peak_force_n = p.peak_force_n,
+               .stored_j = p.stored_j,
+               .friction_heat_j = p.friction_heat_j,
+               .deepest_penetration_m = p.deepest_penetration_m};
+  });
+}
+
+int32_t cdfp_simulation_contact_pair_part(const cdfp_simulation* simulation, int64_t pair, int32_t side,
+                                          char* text, int64_t capacity, int64_t* length) {
+  return guarded(__func__, [&] {
+    const std::vector<Summary::ContactPair> pairs = Look(simulation)->summary().contact_pairs;
+    need_number(pair, static_cast<int64_t>(pairs.size()), "contact pair");
+    need_number(side, 2, "side of a contact pair");
+    copy_text(pairs[pair].parts[side], text, capacity, length);
+  });
+}
+
 int32_t cdfp_simulation_stage_count(const cdfp_simulation* simulation, int64_t* count) {
   return guarded(__func__, [&] {
     set(count, static_cast<int64_t>(Look(simulation)->summary().stages.size()), "count");
@@ -347,10 +398,20 @@ int32_t cdfp_recorder_create(const cdfp_simulation* simulation, const char* fold
                              cdfp_recorder** recorder) {
   return guarded(__func__, [&] {
     const Look s(simulation);
-    need(folder, "folder");
+    need_folder(folder);
     need(recorder, "recorder");
-    if (*folder == '\0') refuse("argument 'folder' is empty; name a folder, such as 'out'");
     give(std::make_shared<Recorder>(folder, parts_that_crack(s->model())), recorder);
+  });
+}
+
+int32_t cdfp_recorder_continue(const cdfp_simulation* simulation, const char* folder,
+                               cdfp_recorder** recorder) {
+  return guarded(__func__, [&] {
+    const Look s(simulation);
+    need_folder(folder);
+    need(recorder, "recorder");
+    give(std::make_shared<Recorder>(Recorder::continued(folder, parts_that_crack(s->model()), s->time())),
+         recorder);
   });
 }
 

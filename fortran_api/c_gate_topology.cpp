@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "c_gate.hpp"
+#include "core/numbered.hpp"
 
 using namespace cdfp;
 using namespace cdfp::gate;
@@ -71,7 +72,7 @@ std::vector<cdfp::ElementType> cdfp::gate::element_types_of(std::size_t elements
     wanted = 0;
     for (std::size_t i = 0; i < elements; ++i) {
       if (types[i] < CDFP_HEXAHEDRON || types[i] > CDFP_PYRAMID) {
-        refuse("element " + std::to_string(i) + " has type " + std::to_string(types[i]) +
+        refuse("element " + numbered(i) + " has type " + std::to_string(types[i]) +
                "; take CDFP_HEXAHEDRON, CDFP_TETRAHEDRON, CDFP_WEDGE or CDFP_PYRAMID");
       }
       found[i] = static_cast<ElementType>(types[i]);

@@ -19,7 +19,7 @@ module cdfp
     CDFP_COHESIVE_TRIANGLE, CDFP_LINEAR, CDFP_CAMACHO_ORTIZ, CDFP_BILINEAR, CDFP_USER, CDFP_ELEMENT_MEAN, &
     CDFP_NODAL, CDFP_SEARCH_NONE, CDFP_SEARCH_REGULAR, CDFP_SEARCH_ADAPTIVE, cdfp_cohesive_law, &
     cdfp_cohesive_points, cdfp_cohesive_point, cdfp_cohesive_pair, cdfp_touch, cdfp_body_pair, &
-    cdfp_nodal_load, cdfp_laminated_plate, cdfp_energies, cdfp_body_state, cdfp_summary
+    cdfp_nodal_load, cdfp_laminated_plate, cdfp_energies, cdfp_body_state, cdfp_summary, cdfp_contact_pair
   use cdfp_c_material, only: cdfp_material_points
   use cdfp_materials, only: cdfp_material_block, build_material
   use cdfp_meshes, only: cdfp_mesh, default_laminated_plate, assignment(=)

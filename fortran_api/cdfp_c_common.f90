@@ -17,6 +17,14 @@ module cdfp_c_common
       integer(c_int32_t) :: status
     end function
 
+    function cdfp_last_error_from_1(text, capacity, length) bind(c) result(status)
+      import
+      character(kind=c_char), intent(inout) :: text(*)
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(inout) :: length
+      integer(c_int32_t) :: status
+    end function
+
     function cdfp_version(major, minor, patch) bind(c) result(status)
       import
       integer(c_int32_t), intent(inout) :: major, minor, patch

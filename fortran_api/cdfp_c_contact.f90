@@ -174,6 +174,14 @@ module cdfp_c_contact
       integer(c_int32_t) :: status
     end function
 
+    function cdfp_contact_remove_elements(contact, count, elements) bind(c) result(status)
+      import
+      type(c_ptr), value :: contact
+      integer(c_int64_t), value :: count
+      integer(c_int32_t), intent(in) :: elements(*)
+      integer(c_int32_t) :: status
+    end function
+
     function cdfp_contact_due(contact, nodes, velocity, step, threads, search) bind(c) result(status)
       import
       type(c_ptr), value :: contact

@@ -22,6 +22,10 @@ module cdfp_c_simulation
     real(c_double) :: peak_force_time_s, impactor_rebound_mps, deepest_penetration_m
   end type
 
+  type, bind(c) :: cdfp_contact_pair
+    real(c_double) :: peak_force_n, stored_j, friction_heat_j, deepest_penetration_m
+  end type
+
   interface
     function cdfp_simulation_create(model, simulation) bind(c) result(status)
       import
@@ -63,6 +67,20 @@ module cdfp_c_simulation
       type(c_ptr), value :: simulation
       type(c_funptr), value :: callback
       type(c_ptr), value :: user_data
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_simulation_save(simulation, path) bind(c) result(status)
+      import
+      type(c_ptr), value :: simulation
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_simulation_restore(simulation, path) bind(c) result(status)
+      import
+      type(c_ptr), value :: simulation
+      character(kind=c_char), intent(in) :: path(*)
       integer(c_int32_t) :: status
     end function
 
@@ -217,6 +235,33 @@ module cdfp_c_simulation
       integer(c_int32_t) :: status
     end function
 
+    function cdfp_simulation_contact_pair_count(simulation, count) bind(c) result(status)
+      import
+      type(c_ptr), value :: simulation
+      integer(c_int64_t), intent(inout) :: count
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_simulation_contact_pair(simulation, pair, values) bind(c) result(status)
+      import
+      type(c_ptr), value :: simulation
+      integer(c_int64_t), value :: pair
+      type(cdfp_contact_pair), intent(inout) :: values
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_simulation_contact_pair_part(simulation, pair, side, text, capacity, &
+        length) bind(c) result(status)
+      import
+      type(c_ptr), value :: simulation
+      integer(c_int64_t), value :: pair
+      integer(c_int32_t), value :: side
+      character(kind=c_char), intent(inout) :: text(*)
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(inout) :: length
+      integer(c_int32_t) :: status
+    end function
+
     function cdfp_simulation_stage_count(simulation, count) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
@@ -274,6 +319,14 @@ module cdfp_c_simulation
     end function
 
     function cdfp_recorder_create(simulation, folder, recorder) bind(c) result(status)
+      import
+      type(c_ptr), value :: simulation
+      character(kind=c_char), intent(in) :: folder(*)
+      type(c_ptr), intent(inout) :: recorder
+      integer(c_int32_t) :: status
+    end function
+
+    function cdfp_recorder_continue(simulation, folder, recorder) bind(c) result(status)
       import
       type(c_ptr), value :: simulation
       character(kind=c_char), intent(in) :: folder(*)

@@ -36,6 +36,7 @@ module cdfp_contacts
     procedure :: add_segments
     procedure :: add_facets
     procedure :: follow
+    procedure :: remove_elements
     procedure :: search_due
     procedure :: regular_search
     procedure :: adaptive_search
@@ -346,6 +347,18 @@ contains
     call report(cdfp_contact_follow(this%handle%address, size(new_nodes, 2, c_int64_t), &
                                     new_nodes - 1_c_int32_t, size(renumbered, 2, c_int64_t), &
                                     renumbered - 1_c_int32_t), stat, errmsg)
+  end subroutine
+
+  !> Elements that are no more: their segments and edges leave, and what touches them is let go. The faces of
+  !> neighbours that are free now come by `add_facets`.
+  subroutine remove_elements(this, elements, stat, errmsg)
+    class(cdfp_contact), intent(in) :: this
+    integer(c_int32_t), intent(in) :: elements(:)
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_contact_remove_elements(this%handle%address, size(elements, kind=c_int64_t), &
+                                             elements - 1_c_int32_t), stat, errmsg)
   end subroutine
 
   !> Once a step: CDFP_SEARCH_NONE, CDFP_SEARCH_REGULAR or CDFP_SEARCH_ADAPTIVE. `v` led to the positions.

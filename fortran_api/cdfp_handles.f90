@@ -103,7 +103,7 @@ contains
     integer(c_int64_t) :: length
     integer(c_int32_t) :: status
 
-    status = cdfp_last_error(buffer, size(buffer, kind=c_int64_t), length)
+    status = cdfp_last_error_from_1(buffer, size(buffer, kind=c_int64_t), length)
     text = fortran_text(buffer, length)
   end function
 

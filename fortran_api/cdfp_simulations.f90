@@ -18,6 +18,8 @@ module cdfp_simulations
     procedure :: step
     procedure :: advance
     procedure :: advance_to
+    procedure :: save => save_simulation
+    procedure :: restore
     procedure :: set_monitor
     procedure :: set_positions
     procedure :: set_velocities
@@ -41,6 +43,8 @@ module cdfp_simulations
     procedure :: energies
     procedure :: summary
     procedure :: first_crack
+    procedure :: contact_pair_count
+    procedure :: get_contact_pair
     procedure :: stage_count
     procedure :: get_stage
     procedure :: warning_count
@@ -54,6 +58,7 @@ module cdfp_simulations
     type(counted_handle) :: handle
   contains
     procedure :: create => create_recorder
+    procedure :: continue_in
     procedure :: free => free_recorder
     procedure :: snapshot
     procedure :: finish
@@ -131,6 +136,28 @@ contains
     count = 0
     call report(cdfp_simulation_advance_to(this%handle%address, time, count), stat, errmsg)
     if (present(done)) done = int(count)
+  end subroutine
+
+  !> Writes all that the next step needs into a file, which takes its place when it is whole.
+  subroutine save_simulation(this, path, stat, errmsg)
+    class(cdfp_simulation), intent(in) :: this
+    character(len=*), intent(in) :: path
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_simulation_save(this%handle%address, c_text(path)), stat, errmsg)
+  end subroutine
+
+  !> Goes on from there, in a simulation that was built from the same model and not stepped yet: it takes the
+  !> same steps to the bit, with any number of threads. Title, threads, time and output of the model may be
+  !> others. What your procedures keep for themselves is theirs to bring back.
+  subroutine restore(this, path, stat, errmsg)
+    class(cdfp_simulation), intent(in) :: this
+    character(len=*), intent(in) :: path
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+
+    call report(cdfp_simulation_restore(this%handle%address, c_text(path)), stat, errmsg)
   end subroutine
 
   !> `callback` is `c_funloc` of a `bind(c)` function with an `integer(c_int32_t)` result and the arguments
@@ -425,6 +452,45 @@ contains
     layer = int(number) + 1
   end subroutine
 
+  !> Pairs of parts that have touched, in the order in which they first did.
+  function contact_pair_count(this, stat, errmsg) result(pairs)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    integer :: pairs
+    integer(c_int64_t) :: count
+
+    count = 0
+    call report(cdfp_simulation_contact_pair_count(this%handle%address, count), stat, errmsg)
+    pairs = int(count)
+  end function
+
+  !> Names of the two parts (the same twice for one that touched itself), force and energies between them.
+  subroutine get_contact_pair(this, number, first, second, values, stat, errmsg)
+    class(cdfp_simulation), intent(in) :: this
+    integer, intent(in) :: number
+    character(len=:), allocatable, intent(out) :: first, second
+    type(cdfp_contact_pair), intent(out) :: values
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    character(kind=c_char) :: buffer(1024)
+    integer(c_int64_t) :: pair, length(2)
+    integer(c_int32_t) :: status
+
+    pair = int(number, c_int64_t) - 1
+    length = 0
+    first = ''
+    second = ''
+    status = cdfp_simulation_contact_pair(this%handle%address, pair, values)
+    if (status == CDFP_OK) status = cdfp_simulation_contact_pair_part(this%handle%address, pair, 0_c_int32_t, &
+                                    buffer, size(buffer, kind=c_int64_t), length(1))
+    if (status == CDFP_OK) first = fortran_text(buffer, length(1))
+    if (status == CDFP_OK) status = cdfp_simulation_contact_pair_part(this%handle%address, pair, 1_c_int32_t, &
+                                    buffer, size(buffer, kind=c_int64_t), length(2))
+    if (status == CDFP_OK) second = fortran_text(buffer, length(2))
+    call report(status, stat, errmsg)
+  end subroutine
+
   !> Stages of the step, such as "traction".
   function stage_count(this, stat, errmsg) result(stages)
     class(cdfp_simulation), intent(in) :: this
@@ -529,6 +595,22 @@ contains
 
     made = c_null_ptr
     status = cdfp_recorder_create(simulation%handle%address, c_text(folder), made)
+    call this%handle%own(made)
+    call report(status, stat, errmsg)
+  end subroutine
+
+  !> For a simulation that was restored: keeps what the run up to then has left in the folder.
+  subroutine continue_in(this, simulation, folder, stat, errmsg)
+    class(cdfp_recorder), intent(inout) :: this
+    type(cdfp_simulation), intent(in) :: simulation
+    character(len=*), intent(in) :: folder
+    integer, intent(out), optional :: stat
+    character(len=*), intent(inout), optional :: errmsg
+    type(c_ptr) :: made
+    integer(c_int32_t) :: status
+
+    made = c_null_ptr
+    status = cdfp_recorder_continue(simulation%handle%address, c_text(folder), made)
     call this%handle%own(made)
     call report(status, stat, errmsg)
   end subroutine

@@ -9,7 +9,8 @@
 //   criterion        | critical elements, stress    | facets that open
 //   insertion        | facets that open             | topology, nodes, element corners, cohesive elements
 //   gravity, load    | mass, position, velocity     | force
-//   surface          | broken cohesive elements     | contact segments and edges
+//   surface          | broken cohesive and deleted  | contact segments and edges
+//                    | elements                     |
 //   global_search    | position, velocity           | candidate pairs (regular, if due)
 //   adaptive_search  | new contact entities         | candidate pairs
 //   local_search     | candidate pairs, position    | contacts: gap, slip
@@ -38,6 +39,8 @@
 #include "cohesive/cohesive_zone.hpp"
 #include "cohesive/criterion.hpp"
 #include "contact/contact.hpp"
+#include "core/archive.hpp"
+#include "core/numbered.hpp"
 #include "core/parallel.hpp"
 #include "core/stage_clock.hpp"
 #include "core/stress.hpp"
@@ -46,7 +49,9 @@
 #include "integrator/constraints.hpp"
 #include "integrator/rigid_body.hpp"
 #include "monitor/monitor.hpp"
+#include "output/restart_file.hpp"
 #include "scene/bonds.hpp"
+#include "scene/fingerprint.hpp"
 #include "scene/scene.hpp"
 #include "state/nodes.hpp"
 
@@ -78,11 +83,14 @@ struct Simulation::Stages {
   std::vector<PartEnergy> part_energies() const { return elements.energies(nodes.position, threads); }
   Summary summary() const;
   Frame frame() const;
+  void archive(Archive& a);
+  void archive_insertions(Archive& a);
   void set_state(std::vector<double>& field, std::span<const double> values, const char* name);
   void set_positions(std::span<const double> values);
   bool finished() const { return time + 0.5 * step_size >= model.time.end * (1 + 1e-12); }
 
   Model model;
+  std::vector<std::pair<std::string, std::uint64_t>> digests;  ///< of the model before anything was split
   std::vector<std::string> warnings;
   Threads threads;
   Nodes nodes;
@@ -108,6 +116,7 @@ struct Simulation::Stages {
   bool positions_are_new = false;  ///< set from outside since the last step
   Index nodes_initial = 0;
   Index segments_initial = 0;
+  Index elements_initial = 0;  ///< of the topology, with bonds
 
  private:
   struct Stage {
@@ -149,6 +158,7 @@ struct Simulation::Stages {
   std::vector<Index> split_;  ///< nodes whose elements changed in this step
   std::vector<VertexUse> around_;
   std::vector<FacetUse> freed_;
+  std::vector<Index> gone_;  ///< deleted in this step
   double next_step_ = 0;
   double work_ahead_ = 0;
   int adaptive_clock_ = 0;
@@ -192,6 +202,7 @@ Simulation::Stages::Stages(Model given)
       monitor(model),
       nodes_initial(model.mesh.node_count()) {
   take_shown_elasticity();
+  digests = fingerprint(model);
   elements.add_mass(nodes.mass);
   for (Index n = 0; n < nodes.count(); ++n) {
     if (nodes.mass[n] == 0) nodes.fixed[n] = 7;
@@ -208,6 +219,7 @@ Simulation::Stages::Stages(Model given)
     segments_initial = contact->segment_count();
   }
   insert_bonds();
+  elements_initial = topology.element_count();
   list_stages();
 
   choose_step();
@@ -254,6 +266,7 @@ void Simulation::Stages::list_stages() {
       const double end = time + step_size;
       for (const Index e : elements.advance_user_laws(nodes.position, end, step_size, threads)) {
         deleted.push_back({e, model.mesh.part_names[model.mesh.parts[e]], end});
+        if (contact) gone_.push_back(e);
       }
     });
   }
@@ -270,7 +283,7 @@ void Simulation::Stages::list_stages() {
   if (has_gravity()) add_stage(forces_, "gravity", [this] { add_gravity(gravity(), nodes, threads); });
   if (model.load) add_stage(forces_, "load", [this] { add_load(); });
   if (contact) {
-    if (cohesive) add_stage(forces_, "surface", [this] { update_surface(); });
+    if (cohesive || elements.has_user_laws()) add_stage(forces_, "surface", [this] { update_surface(); });
     regular_clock_ = clock.add("global_search");
     adaptive_clock_ = clock.add("adaptive_search");
     forces_.push_back({clock.add("search_due"), [this] { search(); }});
@@ -357,7 +370,11 @@ void Simulation::Stages::divide_masses_and_forces() {
 }
 
 void Simulation::Stages::update_surface() {
-  const std::span<const Index> broken = cohesive->broken_now();
+  if (!gone_.empty()) {
+    contact->remove_elements(gone_, topology, nodes);
+    gone_.clear();
+  }
+  const std::span<const Index> broken = cohesive ? cohesive->broken_now() : std::span<const Index>();
   if (broken.empty()) return;
   freed_.clear();
   for (const Index e : broken) {
@@ -390,7 +407,7 @@ void Simulation::Stages::add_load() {
   for (std::size_t i = 0; i < load_.size(); ++i) {
     load_[i] = nodes.force[i] - load_[i];
     if (!std::isfinite(load_[i])) {
-      throw Error(Status::diverged, "the load at node " + std::to_string(i / 3) +
+      throw Error(Status::diverged, "the load at node " + numbered(i / 3) +
                                         " is not a finite number at time " + std::to_string(1e6 * time) +
                                         " us; check the load callback");
     }
@@ -414,7 +431,7 @@ void Simulation::Stages::set_state(std::vector<double>& field, std::span<const d
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (std::isfinite(values[i])) continue;
     throw Error(Status::bad_argument,
-                std::string("'") + name + "' of node " + std::to_string(i / 3) + " is not a finite number");
+                std::string("'") + name + "' of node " + numbered(i / 3) + " is not a finite number");
   }
   const auto energy = [this] {
     const Energies e = energies(part_energies());
@@ -454,8 +471,7 @@ void Simulation::Stages::choose_step() {
   stable = elements.stable_step(nodes.position, threads);
   if (!(stable.step > 0) || !std::isfinite(stable.step)) {
     throw Error(Status::diverged,
-                "no stable step at time " + std::to_string(time) + " s: element " +
-                    std::to_string(stable.element) +
+                "no stable step at time " + std::to_string(time) + " s: element " + numbered(stable.element) +
                     " is inverted or not finite; take a smaller step or a coarser mesh there");
   }
   const double fixed = model.time.fixed_step;
@@ -483,7 +499,7 @@ void Simulation::Stages::record() {
   if (!std::isfinite(now.balance())) {
     const Index element = elements.first_inverted(nodes.position);
     const std::string at = element == kNone ? ""
-                                            : "element " + std::to_string(element) + " (part '" +
+                                            : "element " + numbered(element) + " (part '" +
                                                   model.mesh.part_names[model.mesh.parts[element]] +
                                                   "') is the first that is inverted; ";
     throw Error(Status::diverged, "the state is no longer finite at time " + std::to_string(1e6 * time) +
@@ -593,6 +609,56 @@ void Simulation::Stages::add_user_fields(Frame& f) const {
   if (!deletes) return;
   std::vector<double>& gone = field("deleted", 0);
   for (const Summary::Deleted& d : deleted) gone[static_cast<std::size_t>(d.element)] = 1;
+}
+
+/// Facets that have opened, in their order: they make the same topology again, and what follows from it.
+void Simulation::Stages::archive_insertions(Archive& a) {
+  std::vector<FacetUse> opened;
+  for (Index e = elements_initial; e < topology.element_count(); ++e) opened.push_back(topology.mate({e, 1}));
+  a("insertions", opened);
+  if (a.reads()) {
+    for (const FacetUse& lower : opened) insert(lower);
+    split_.clear();
+  }
+  a.require_same("nodes", static_cast<std::uint64_t>(nodes.count()));
+  a.require_same("cohesive_elements", static_cast<std::uint64_t>(topology.element_count()));
+}
+
+void Simulation::Stages::archive(Archive& a) {
+  archive_insertions(a);
+  nodes.archive(a);
+  elements.archive(a);
+  a.require_same("rigid_bodies", bodies.size());
+  for (RigidMotion& body : bodies) body.archive(a);
+  a.require_same("cohesive", cohesive.has_value());
+  if (cohesive) cohesive->archive(a);
+  a.require_same("contact", contact.has_value());
+  if (contact) contact->archive(a);
+  monitor.archive(a);
+  clock.archive(a);
+  a("time", time);
+  a("steps", steps);
+  a("step_size", step_size);
+  a("next_step", next_step_);
+  a("kick", kick);
+  a("stable", stable);
+  a("external_work", external_work);
+  a("work_ahead", work_ahead_);
+  a("initial_energy", initial_energy);
+  a("wall_seconds", wall_seconds);
+  a("positions_are_new", positions_are_new);
+  a("search_anew", search_anew_);
+  a("load", load_);
+  a("warnings", warnings);
+  a("warned_of_step", warned_of_step_);
+  std::uint64_t gone = deleted.size();
+  a("deleted", gone);
+  deleted.resize(gone);
+  for (Summary::Deleted& d : deleted) {
+    a("deleted.element", d.element);
+    a("deleted.part", d.part);
+    a("deleted.time", d.time_s);
+  }
 }
 
 Summary Simulation::Stages::summary() const {
@@ -732,6 +798,20 @@ void Simulation::set_velocities(std::span<const double> velocities) {
   stages_->set_state(stages_->nodes.velocity, velocities, "velocities");
 }
 
+void Simulation::save(const std::string& path) const {
+  Archive state;
+  stages_->archive(state);
+  write_restart(path, stages_->digests, state.bytes());
+}
+void Simulation::restore(const std::string& path) {
+  if (step_count() > 0) {
+    throw Error(Status::bad_state, "the simulation has made " + std::to_string(step_count()) +
+                                       " steps; restore into one that was just built from the model");
+  }
+  Archive state(read_restart(path, stages_->digests));
+  stages_->archive(state);
+}
+
 const Model& Simulation::model() const {
   return stages_->model;
 }
@@ -745,8 +825,8 @@ Index Simulation::body_count() const {
 
 Simulation::BodyState Simulation::body(Index rigid_body) const {
   if (rigid_body < 0 || rigid_body >= body_count()) {
-    throw Error(Status::bad_argument, "there is no rigid body " + std::to_string(rigid_body) +
-                                          "; the scene has " + std::to_string(body_count()));
+    throw Error(Status::bad_argument, "there is no rigid body " + numbered(rigid_body) + "; the scene has " +
+                                          std::to_string(body_count()));
   }
   const RigidMotion& motion = stages_->bodies[rigid_body];
   BodyState state;

@@ -44,6 +44,8 @@ enum {
 
 /** Text of the last call that failed on this thread; empty if none did. */
 int32_t cdfp_last_error(char* text, int64_t capacity, int64_t* length);
+/** The same for callers who count elements, nodes, facets and parts from 1. */
+int32_t cdfp_last_error_from_1(char* text, int64_t capacity, int64_t* length);
 
 /** Version of the library that runs: major, minor, patch. */
 int32_t cdfp_version(int32_t* major, int32_t* minor, int32_t* patch);
@@ -383,6 +385,14 @@ typedef struct cdfp_summary {
   double deepest_penetration_m;
 } cdfp_summary;
 
+/** Two parts that have touched, or one that touched itself. */
+typedef struct cdfp_contact_pair {
+  double peak_force_n; /**< on what is modelled */
+  double stored_j;     /**< in contact springs now */
+  double friction_heat_j;
+  double deepest_penetration_m;
+} cdfp_contact_pair;
+
 /** Checks the model and builds what it needs. The model is copied: it may be changed, used again or freed. */
 int32_t cdfp_simulation_create(const cdfp_model* model, cdfp_simulation** simulation);
 int32_t cdfp_simulation_free(cdfp_simulation** simulation);
@@ -393,6 +403,14 @@ int32_t cdfp_simulation_step(cdfp_simulation* simulation);
 int32_t cdfp_simulation_advance(cdfp_simulation* simulation, int64_t steps, int64_t* done);
 /** Steps until half a step from `time` or nearer, or the end; `done` may be NULL. */
 int32_t cdfp_simulation_advance_to(cdfp_simulation* simulation, double time, int64_t* done);
+
+/** Writes all that the next step needs into a file, which takes its place when it is whole. */
+int32_t cdfp_simulation_save(const cdfp_simulation* simulation, const char* path);
+/** Goes on from there, in a simulation that was built from the same model and not stepped yet: it takes the
+ *  same steps to the bit, with any number of threads. Title, threads, time and output of the model may be
+ *  others. What callbacks keep for themselves is theirs to bring back. CDFP_BAD_INPUT for a file that is cut
+ *  short, damaged, of another model or version; nothing is changed then. */
+int32_t cdfp_simulation_restore(cdfp_simulation* simulation, const char* path);
 
 /** Called after every step with the handle that was stepped; not 0: no further step of this call. It may look
  *  at the simulation and change its state, but not step it. */
@@ -444,6 +462,14 @@ int32_t cdfp_simulation_summary(const cdfp_simulation* simulation, cdfp_summary*
  *  the facet in the undeformed mesh. */
 int32_t cdfp_simulation_first_crack(const cdfp_simulation* simulation, const char* part, double* time,
                                     int32_t* layer, double* position);
+/** Pairs of parts that have touched, in the order in which they first did. */
+int32_t cdfp_simulation_contact_pair_count(const cdfp_simulation* simulation, int64_t* count);
+int32_t cdfp_simulation_contact_pair(const cdfp_simulation* simulation, int64_t pair,
+                                     cdfp_contact_pair* values);
+/** Name of the part on a side of the pair, 0 or 1. */
+int32_t cdfp_simulation_contact_pair_part(const cdfp_simulation* simulation, int64_t pair, int32_t side,
+                                          char* text, int64_t capacity, int64_t* length);
+
 /** Stages of the step: wall time so far and calls, and the name of the stage. */
 int32_t cdfp_simulation_stage_count(const cdfp_simulation* simulation, int64_t* count);
 int32_t cdfp_simulation_stage(const cdfp_simulation* simulation, int64_t stage, double* seconds,
@@ -463,6 +489,9 @@ int32_t cdfp_simulation_history_column(const cdfp_simulation* simulation, int64_
 
 /** Makes the folder and removes from it what an earlier run left. */
 int32_t cdfp_recorder_create(const cdfp_simulation* simulation, const char* folder, cdfp_recorder** recorder);
+/** For a simulation that was restored: keeps what the run up to then has left in the folder. */
+int32_t cdfp_recorder_continue(const cdfp_simulation* simulation, const char* folder,
+                               cdfp_recorder** recorder);
 int32_t cdfp_recorder_free(cdfp_recorder** recorder);
 /** The state now as a snapshot for ParaView, and the history so far. */
 int32_t cdfp_recorder_snapshot(cdfp_recorder* recorder, const cdfp_simulation* simulation);
@@ -705,6 +734,10 @@ int32_t cdfp_contact_add_facets(cdfp_contact* contact, const cdfp_topology* topo
 int32_t cdfp_contact_follow(cdfp_contact* contact, int64_t new_node_count, const int32_t* new_nodes,
                             int64_t renumbered_count, const int32_t* renumbered);
 
+/** Elements that are no more: their segments and edges leave, and what touches them is let go. Numbers of
+ *  segments stay. The faces of neighbours that are free now come by `cdfp_contact_add_facets`. */
+int32_t cdfp_contact_remove_elements(cdfp_contact* contact, int64_t count, const int32_t* elements);
+
 enum {
   CDFP_SEARCH_NONE = 0,
   CDFP_SEARCH_REGULAR = 1, /**< call `cdfp_contact_regular_search` */
@@ -725,7 +758,7 @@ int32_t cdfp_contact_local_search(cdfp_contact* contact, int64_t nodes, const do
 int32_t cdfp_contact_add_force(cdfp_contact* contact, int64_t nodes, const double* velocity,
                                const double* mass, double* force, double step, int32_t threads);
 
-/** Contact nodes, segments, edges, and pairs that touch. */
+/** Contact nodes, segments (removed ones included), edges, and pairs that touch. */
 int32_t cdfp_contact_counts(const cdfp_contact* contact, int64_t* nodes, int64_t* segments, int64_t* edges,
                             int64_t* touching);
 /** The contact nodes, which are the rows of `cdfp_contact_node_segments`; holds until segments or splits are

@@ -15,6 +15,8 @@
 
 namespace cdfp {
 
+class Archive;
+
 /// Pairs as compressed rows, with chains for what an adaptive search adds later.
 class PairRows {
  public:
@@ -34,6 +36,7 @@ class PairRows {
   /// All pairs as compressed rows, partners ascending: those of row `r` stand in [start[r], start[r + 1]).
   void compress(std::vector<Index>& start, std::vector<Index>& partners) const;
   std::size_t memory() const;
+  void archive(Archive& a);  ///< for the restart of a simulation
 
   /// What one thread found for its share of the partners, one partner after another.
   class Found {
@@ -94,7 +97,8 @@ struct SurfaceView {
   std::span<const Index> segments;   ///< (m, 4) corners; a triangle has kNone last
   std::span<const Index> edges;      ///< (e, 2); may be empty
   std::span<const Index>
-      groups;  ///< one a node of the mesh; entities of one group >= 0 never pair; may be empty
+      groups;         ///< one a node of the mesh; entities of one group >= 0 never pair; may be empty
+  Index removed = 0;  ///< segments that were removed: all corners one node, left out of the mean length
 };
 
 /// Candidate pairs node-segment and edge-edge (LC-Grid and its adaptive update; Chen, Zang, Xu 2015, section
@@ -132,6 +136,7 @@ class ContactSearch {
   std::span<const Index> touched_node_rows() const;
   std::span<const Index> touched_edge_rows() const;
   std::size_t memory() const;
+  void archive(Archive& a);  ///< for the restart of a simulation
 
  private:
   struct Cells;
@@ -188,6 +193,10 @@ class SurfaceContact {
   /// All renames and splits of an insertion in the topology.
   void follow(std::span<const Insertion::NewNode> new_nodes,
               std::span<const Insertion::Renumbered> renumbered);
+  /// The element is no more: its segments and edges leave, and what touches them is let go; what their
+  /// springs held is heat. Nodes that no segment has left take part in no contact. The faces of its
+  /// neighbours that are free now come by `add_facets`. Numbers of segments stay.
+  void remove_element(Index element);
   /// `element` names `new_node` where it named `old_node`, at the same place.
   void rename(Index element, Index old_node, Index new_node);
   /// After all renames of a split: the copy takes its share of what holds the mother.
@@ -204,9 +213,12 @@ class SurfaceContact {
   void local_search(const Arrays& arrays, int threads = 1);
   void add_force(const Arrays& arrays, double step, int threads = 1);
 
-  Index segment_count() const;
+  Index segment_count() const;  ///< removed ones included
+  Index removed_count() const;  ///< segments
   Index edge_count() const;
   Index node_count() const;
+  /// Whether the facet is a segment and has not been removed.
+  bool has_facet(const Topology& topology, FacetUse facet) const;
   std::span<const Index> nodes() const;     ///< contact nodes: rows of the search's pairs
   std::span<const Index> segments() const;  ///< (m, 4), kNone last in a triangle
   const ContactSearch& search() const;
@@ -232,7 +244,7 @@ class SurfaceContact {
     std::array<Index, 2> parts{kNone, kNone};  ///< ascending
     std::array<double, 3> force{};             ///< N, on the first by the second at the last `add_force`
     double stored = 0;                         ///< J, in springs at the last `add_force`
-    double friction_heat = 0;                  ///< J, so far
+    double friction_heat = 0;                  ///< J, so far, and what springs of removed segments held
     double peak_force = 0;                     ///< N, so far
     double deepest = 0;                        ///< m, so far
   };
@@ -247,6 +259,7 @@ class SurfaceContact {
   /// 1/s2: bound on omega^2 of the contact springs alone (largest row sum of M^-1 K) at the last `add_force`.
   double stiffness_over_mass() const;
   std::size_t memory() const;
+  void archive(Archive& a);  ///< for the restart of a simulation
 
  private:
   struct Stages;

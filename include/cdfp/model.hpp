@@ -223,6 +223,7 @@ struct TimeSettings {
 struct OutputSettings {
   std::vector<double> snapshot_times;  ///< s
   std::int64_t history_interval = 20;  ///< steps between rows of the history
+  std::int64_t restart_interval = 0;   ///< steps between files to continue from; 0: none
 };
 
 struct Model {

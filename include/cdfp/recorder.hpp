@@ -16,7 +16,12 @@ class Recorder {
   /// Makes the folder and removes from it what an earlier run left. `crack_parts`: parts whose cracks get a
   /// picture each, `cracks_<name>.png` (without "_glass" at the name's end).
   Recorder(const std::string& folder, std::vector<std::string> crack_parts);
+  /// Goes on in the folder of a run that was saved at `time` (s): keeps its snapshots and pictures up to then
+  /// and takes away later ones. In another folder it starts with what comes.
+  static Recorder continued(const std::string& folder, std::vector<std::string> crack_parts, double time);
   ~Recorder();
+  Recorder(Recorder&&) noexcept;
+  Recorder& operator=(Recorder&&) noexcept;
 
   /// Writes a VTU snapshot, brings the .pvd up to date (readable at any moment) and keeps what the crack
   /// pictures need.
@@ -31,6 +36,7 @@ class Recorder {
 
  private:
   struct Files;
+  explicit Recorder(std::unique_ptr<Files> files);
   std::unique_ptr<Files> files_;
 };
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "cdfp/model.hpp"
@@ -51,6 +52,16 @@ class Simulation {
   // length and for what is not finite; nothing is changed then.
   void set_positions(std::span<const double> positions);    ///< m; contact is searched anew
   void set_velocities(std::span<const double> velocities);  ///< m/s, half a step ahead of the positions
+
+  /// Writes all that the next step needs into a file, which takes its place when it is whole: a run that ends
+  /// while it writes leaves the earlier one. Throws `Error(io)`.
+  void save(const std::string& path) const;
+  /// Goes on from there: this simulation, built from the same model and not stepped yet, is as the other one
+  /// was when it was saved, and takes the same steps to the bit with any number of threads on the same
+  /// processors. Title, threads, time and output of the model may be others; what callbacks keep for
+  /// themselves is theirs to bring back. Throws `Error(io)`, `Error(bad_input)` for a file that is damaged,
+  /// cut short, of another model or version, and `Error(bad_state)` after a step; nothing is changed then.
+  void restore(const std::string& path);
 
   /// Its mesh is undeformed, with nodes and corners as cracks have split them so far.
   const Model& model() const;

@@ -96,4 +96,38 @@ void Clusters::compact() {
   dead_ = 0;
 }
 
+void Clusters::archive(Archive& a) {
+  a("clusters.family_of_node", family_of_node_);
+  std::uint64_t families = families_.size();
+  a("clusters.families", families);
+  families_.resize(families);
+  std::vector<Index> points;
+  std::vector<std::uint32_t> clusters, sizes;
+  for (const Family& family : families_) {
+    points.insert(points.end(), family.points.begin(), family.points.end());
+    clusters.insert(clusters.end(), family.clusters.begin(), family.clusters.end());
+    sizes.push_back(static_cast<std::uint32_t>(family.points.size()));
+    sizes.push_back(static_cast<std::uint32_t>(family.clusters.size()));
+  }
+  a("clusters.sizes", sizes);
+  a("clusters.points", points);
+  a("clusters.clusters", clusters);
+  if (a.reads()) {
+    auto point = points.begin();
+    auto cluster = clusters.begin();
+    for (std::size_t f = 0; f < families_.size(); ++f) {
+      families_[f].points.assign(point, point + sizes[2 * f]);
+      families_[f].clusters.assign(cluster, cluster + sizes[2 * f + 1]);
+      families_[f].touched = false;
+      point += sizes[2 * f], cluster += sizes[2 * f + 1];
+    }
+  }
+  a("clusters.touched", touched_);
+  for (const Index f : touched_) families_[f].touched = true;
+  a("clusters.all", clusters_);
+  a("clusters.slots", slots_);
+  a("clusters.nodes", nodes_);
+  a("clusters.dead", dead_);
+}
+
 }  // namespace cdfp

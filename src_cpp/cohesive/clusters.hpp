@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cdfp/topology.hpp"
+#include "core/archive.hpp"
 
 namespace cdfp {
 
@@ -52,6 +53,8 @@ class Clusters {
     touched_.clear();
     if (dead_ > 64 && 2 * dead_ > clusters_.size()) compact();
   }
+
+  void archive(Archive& a);
 
   std::span<const Cluster> all() const { return clusters_; }  ///< some may be empty
   std::span<const Slot> slots(const Cluster& c) const { return {&slots_[c.first_slot], c.slots}; }

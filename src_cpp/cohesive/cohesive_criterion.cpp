@@ -4,6 +4,7 @@
 #include "cdfp/cohesive.hpp"
 #include "cohesive/check_law.hpp"
 #include "cohesive/criterion.hpp"
+#include "core/numbered.hpp"
 #include "core/require.hpp"
 
 namespace cdfp {
@@ -34,8 +35,8 @@ Model model_of(const Topology& topology, std::span<const double> coordinates,
     const std::span<const Index> nodes = topology.nodes(e);
     model.mesh.connectivity.insert(model.mesh.connectivity.end(), nodes.begin(), nodes.end());
     require(settings.parts[e] >= 0 && settings.parts[e] < static_cast<Index>(settings.law_of_part.size()),
-            "element " + std::to_string(e) + " is of part " + std::to_string(settings.parts[e]) +
-                "; there are " + std::to_string(settings.law_of_part.size()) + " parts, counted from 0");
+            "element " + numbered(e) + " is of part " + numbered(settings.parts[e]) + "; there are " +
+                std::to_string(settings.law_of_part.size()) + " parts, counted from " + numbered(0));
   }
   for (const CohesiveLaw& law : settings.laws) {
     check_law(law);
@@ -44,10 +45,10 @@ Model model_of(const Topology& topology, std::span<const double> coordinates,
   }
   for (const Index law : settings.law_of_part) {
     require(law == kNone || (law >= 0 && law < static_cast<Index>(settings.laws.size())),
-            "part " + std::to_string(model.parts.size()) + " has the cohesive law " + std::to_string(law) +
-                "; there are " + std::to_string(settings.laws.size()) + ", counted from 0");
+            "part " + numbered(model.parts.size()) + " has the cohesive law " + numbered(law) +
+                "; there are " + std::to_string(settings.laws.size()) + ", counted from " + numbered(0));
     require(law == kNone || settings.laws[law].kind != CohesiveKind::bilinear,
-            "part " + std::to_string(model.parts.size()) +
+            "part " + numbered(model.parts.size()) +
                 " has a bilinear law, which stands from the start; a facet opens by another kind");
     Part part;
     part.name = std::to_string(model.parts.size());
@@ -102,7 +103,7 @@ void CohesiveCriterion::find(const Topology& topology, std::span<const double> p
     const double square =
         s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
     if (square < kept_->least[e]) continue;
-    require(std::isfinite(square), "the stress of element " + std::to_string(e) +
+    require(std::isfinite(square), "the stress of element " + numbered(e) +
                                        " is not finite; the state is lost: take a smaller step");
     if (kept_->law_of_element[e] != kNone) kept_->candidates.push_back(e);
   }

@@ -6,6 +6,7 @@
 #include "cdfp/cohesive.hpp"
 #include "cohesive/check_law.hpp"
 #include "cohesive/cohesive_zone.hpp"
+#include "core/numbered.hpp"
 #include "core/require.hpp"
 
 namespace cdfp {
@@ -23,15 +24,15 @@ struct CohesiveElements::Kept {
   Index place(Index element) const {
     const Index place = element - first_element;
     require(place >= 0 && place < zone.count(),
-            "there is no cohesive element " + std::to_string(element) + "; they have the numbers from " +
-                std::to_string(first_element) + " to " + std::to_string(first_element + zone.count() - 1));
+            "there is no cohesive element " + numbered(element) + "; they have the numbers from " +
+                numbered(first_element) + " to " + numbered(first_element + zone.count() - 1));
     return place;
   }
 
   void need_nodes(std::size_t n) const {
-    require(n >= static_cast<std::size_t>(nodes),
-            "the arrays are of " + std::to_string(n) + " nodes, but cohesive elements name node " +
-                std::to_string(nodes - 1) + "; give arrays of all nodes");
+    require(n >= static_cast<std::size_t>(nodes), "the arrays are of " + std::to_string(n) +
+                                                      " nodes, but cohesive elements name node " +
+                                                      numbered(nodes - 1) + "; give arrays of all nodes");
   }
 
   NodeArrays view(const Arrays& arrays) {
@@ -56,7 +57,7 @@ struct CohesiveElements::Kept {
 };
 
 CohesiveElements::CohesiveElements(Index first_element) {
-  require(first_element >= 0, "the first cohesive element has the number " + std::to_string(first_element) +
+  require(first_element >= 0, "the first cohesive element has the number " + numbered(first_element) +
                                   "; give the count of bulk elements, or 0");
   kept_ = std::make_unique<Kept>(first_element);
 }
@@ -77,7 +78,7 @@ Index CohesiveElements::law_count() const {
 
 void CohesiveElements::hold(std::span<const Index> nodes, std::array<bool, 3> directions) {
   for (const Index n : nodes) {
-    require(n >= 0, "node " + std::to_string(n) + " is to be held; nodes count from 0");
+    require(n >= 0, "node " + numbered(n) + " is to be held; nodes count from " + numbered(0));
   }
   if (nodes.empty()) return;
   const auto count = static_cast<std::size_t>(*std::max_element(nodes.begin(), nodes.end())) + 1;
@@ -95,8 +96,8 @@ void CohesiveElements::follow(std::span<const Insertion::NewNode> new_nodes,
   Kept& k = *kept_;
   for (const Insertion::NewNode& n : new_nodes) {
     require(n.node >= 0 && n.mother >= 0 && n.node != n.mother,
-            "'new_nodes' says that node " + std::to_string(n.node) + " is a copy of node " +
-                std::to_string(n.mother) + "; give rows of new node and mother");
+            "'new_nodes' says that node " + numbered(n.node) + " is a copy of node " + numbered(n.mother) +
+                "; give rows of new node and mother");
   }
   Insertion& changes = k.changes;
   changes.renumbered.clear();
@@ -104,9 +105,9 @@ void CohesiveElements::follow(std::span<const Insertion::NewNode> new_nodes,
     if (r.element < k.first_element) continue;
     const Index place = k.place(r.element);
     require(r.corner >= 0 && r.corner < 2 * k.zone.corner_count(place) && r.new_node >= 0,
-            "'renumbered' names corner " + std::to_string(r.corner) + " of cohesive element " +
-                std::to_string(r.element) + ", which has " + std::to_string(2 * k.zone.corner_count(place)) +
-                ", and node " + std::to_string(r.new_node));
+            "'renumbered' names corner " + numbered(r.corner) + " of cohesive element " +
+                numbered(r.element) + ", which has " + std::to_string(2 * k.zone.corner_count(place)) +
+                ", and node " + numbered(r.new_node));
     changes.renumbered.push_back(r);
     k.nodes = std::max(k.nodes, r.new_node + 1);
   }
@@ -124,22 +125,22 @@ void CohesiveElements::follow(std::span<const Insertion::NewNode> new_nodes,
 void CohesiveElements::insert(Index element, Index law, std::span<const Index> corners,
                               std::array<double, 3> traction, std::span<const double> position, double time) {
   Kept& k = *kept_;
-  const std::string where = "cohesive element " + std::to_string(element);
+  const std::string where = "cohesive element " + numbered(element);
   require(element == k.first_element + k.zone.count(), where + " is not the next one, which is " +
                                                            std::to_string(k.first_element + k.zone.count()) +
                                                            "; insert them in the order of their numbers");
-  require(law >= 0 && law < law_count(), where + " has the law " + std::to_string(law) + "; there are " +
-                                             std::to_string(law_count()) + ", counted from 0");
+  require(law >= 0 && law < law_count(), where + " has the law " + numbered(law) + "; there are " +
+                                             std::to_string(law_count()) + ", counted from " + numbered(0));
   require(corners.size() == 6 || corners.size() == 8,
           where + " has " + std::to_string(corners.size()) + " corners; give 6 or 8, the upper face first");
   NodeArrays nodes;
   nodes.position = position;
   const auto n = static_cast<Index>(position.size() / 3);
   for (const Index corner : corners) {
-    require(corner >= 0 && corner < n, where + " names node " + std::to_string(corner) +
-                                           "; the arrays have " + std::to_string(n) + ", counted from 0");
+    require(corner >= 0 && corner < n, where + " names node " + numbered(corner) + "; the arrays have " +
+                                           std::to_string(n) + ", counted from " + numbered(0));
     require(std::isfinite(dot(nodes.x(corner), nodes.x(corner))),
-            where + ": the position of node " + std::to_string(corner) + " is not finite");
+            where + ": the position of node " + numbered(corner) + " is not finite");
   }
   const std::size_t half = corners.size() / 2;
   const auto middle = [&](std::size_t c) { return nodes.x(corners[c]) + nodes.x(corners[c + half]); };
@@ -165,7 +166,7 @@ void CohesiveElements::add_force(const Arrays& arrays, double step, double time,
   const Index bad = k.zone.first_bad_node(nodes);
   if (bad != kNone) {
     const bool massless = !(nodes.mass[bad] > 0);
-    refuse("node " + std::to_string(bad) + " of a cohesive element has " +
+    refuse("node " + numbered(bad) + " of a cohesive element has " +
            (massless ? "no positive mass; divide the masses of nodes that were split between them"
                      : "a position or velocity that is not finite; the state is lost: take a smaller step"));
   }
@@ -188,9 +189,9 @@ Index CohesiveElements::corner_count(Index element) const {
 
 CohesivePointState CohesiveElements::point(Index element, Index corner) const {
   const Index corners = corner_count(element);
-  require(corner >= 0 && corner < corners, "cohesive element " + std::to_string(element) + " has no pair " +
-                                               std::to_string(corner) + "; it has " +
-                                               std::to_string(corners) + ", counted from 0");
+  require(corner >= 0 && corner < corners, "cohesive element " + numbered(element) + " has no pair " +
+                                               numbered(corner) + "; it has " + std::to_string(corners) +
+                                               ", counted from " + numbered(0));
   return kept_->zone.point(kept_->place(element), corner);
 }
 

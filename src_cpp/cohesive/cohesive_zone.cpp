@@ -7,6 +7,7 @@
 
 #include "cdfp/error.hpp"
 #include "cohesive/zone_points.hpp"
+#include "core/numbered.hpp"
 
 namespace cdfp {
 
@@ -72,7 +73,7 @@ void CohesiveZone::insert(const Topology& topology, const Insertion& insertion, 
   inserted.insertion_time = time;
   if (inserted.law < 0) {
     throw Error(Status::bad_argument,
-                "element " + std::to_string(insertion.lower.element) +
+                "element " + numbered(insertion.lower.element) +
                     " belongs to a part without a cohesive law; its facets cannot open");
   }
   points_->insert(topology, insertion, inserted, nodes);
@@ -226,6 +227,22 @@ CohesiveZone::Cost CohesiveZone::cost() const {
     sum.unsettled += w.fixed;
   }
   return sum;
+}
+
+void CohesiveZone::archive(Archive& a) {
+  Points& p = *points_;
+  a("cohesive.facets", p.facets);
+  a("cohesive.points", p.points);
+  a("cohesive.live", p.live);
+  p.clusters.archive(a);
+  for (UserPoints& user : p.users) user.archive(a);
+  a("cohesive.couples", p.couples);
+  a("cohesive.broken_elements", p.broken_elements);
+  a("cohesive.broken_count", p.broken_count);
+  a("cohesive.bulk_count", p.bulk_count);
+  a("cohesive.closed", p.closed);
+  a("cohesive.ahead_of_closed", p.ahead_of_closed);
+  a("cohesive.ahead_of_couples", p.ahead_of_couples);
 }
 
 }  // namespace cdfp

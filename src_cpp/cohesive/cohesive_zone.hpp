@@ -11,6 +11,7 @@
 #include "cdfp/results.hpp"
 #include "cdfp/topology.hpp"
 #include "cohesive/criterion.hpp"
+#include "core/archive.hpp"
 #include "core/parallel.hpp"
 #include "state/nodes.hpp"
 
@@ -83,6 +84,8 @@ class CohesiveZone {
 
   /// For output, in the order of insertion. Bonds show once they are damaged.
   std::vector<CrackFacet> facets(const Topology& topology) const;
+
+  void archive(Archive& a);
 
   /// What the solution of the node pairs cost, for benchmarks.
   struct Cost {

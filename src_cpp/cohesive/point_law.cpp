@@ -3,6 +3,7 @@
 #include "cdfp/cohesive.hpp"
 #include "cdfp/error.hpp"
 #include "cohesive/law.hpp"
+#include "core/numbered.hpp"
 
 namespace cdfp {
 
@@ -52,7 +53,7 @@ void start_cohesive(const CohesiveLaw& law, std::span<const double> traction, st
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3 carried = Vec3::load(&traction[3 * i]);
     const double strength = effective_traction(carried, Vec3::load(&normal[3 * i]), law.shear_ratio);
-    require(strength > 0, "the traction at point " + std::to_string(i) +
+    require(strength > 0, "the traction at point " + numbered(i) +
                               " neither pulls nor shears; a face opens under tension or shear only");
     points[i] = {};
     points[i].strength = strength;

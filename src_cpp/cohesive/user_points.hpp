@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cdfp/model.hpp"
+#include "core/archive.hpp"
 #include "core/vec3.hpp"
 
 namespace cdfp {
@@ -33,6 +34,12 @@ class UserPoints {
   Vec3 traction(Index place) const { return points_[place].traction; }
   double stored(Index place) const { return points_[place].stored; }
   double damage(Index place) const { return points_[place].damage; }
+
+  void archive(Archive& a) {
+    a("cohesive_law.points", points_);
+    a("cohesive_law.state", state_);
+    a("cohesive_law.slope_cost", slope_cost_);
+  }
 
   double slope_cost() const { return slope_cost_; }  ///< J, |work| by which tractions were bounded
 

@@ -46,6 +46,14 @@ class BoxLevels {
       length *= 2;
     }
   }
+  void archive(Archive& a) {
+    a("levels.space", space_);
+    a("levels.base", base_);
+    std::uint64_t count = levels_.size();
+    a("levels.count", count);
+    levels_.resize(count);
+    for (CellTable<true>& level : levels_) level.archive(a);
+  }
   std::size_t memory() const {
     std::size_t bytes = 0;
     for (const auto& level : levels_) bytes += level.memory();

@@ -10,6 +10,7 @@
 
 #include "cdfp/types.hpp"
 #include "contact/cell_layout.hpp"
+#include "core/archive.hpp"
 #include "core/lanes.hpp"
 
 namespace cdfp {
@@ -63,6 +64,18 @@ class CellTable {
     put(place, &chunk.places[chunk.count], 8);
     chunk.ids[chunk.count++] = id;
     ++added_;
+  }
+
+  void archive(Archive& a) {
+    a("cells.layout", layout_);
+    a("cells.first", first_);
+    a("cells.places", places_);
+    a("cells.stride", stride_);
+    a("cells.ids", ids_);
+    a("cells.chunks", chunks_);
+    a("cells.group_chunk", group_chunk_);
+    a("cells.sorted", sorted_);
+    a("cells.added", added_);
   }
 
   std::size_t size() const { return sorted_ + added_; }

@@ -7,6 +7,7 @@
 
 #include "cdfp/contact.hpp"
 #include "cdfp/error.hpp"
+#include "core/archive.hpp"
 
 namespace cdfp {
 
@@ -32,9 +33,15 @@ struct Contact::Stages {
   std::vector<double> bulk_modulus;  // by part
   std::span<const Index> part_of_element;
   std::vector<std::int64_t> dormant;  // bonded facets, ascending
+  std::unordered_set<Index> removed;  // elements
   int threads = 1;
 
   static std::int64_t key(FacetUse use) { return std::int64_t{8} * use.element + use.facet; }
+
+  void wake(FacetUse use) {
+    const auto found = std::lower_bound(dormant.begin(), dormant.end(), key(use));
+    if (found != dormant.end() && *found == key(use)) dormant.erase(found);
+  }
 
   static SurfaceContact::Arrays arrays(const Nodes& nodes) {
     return {nodes.position, nodes.velocity, nodes.mass, nodes.body, {}};
@@ -46,7 +53,7 @@ struct Contact::Stages {
 };
 
 Contact::Contact(const Model& model, const Topology& topology)
-    : stages_(new Stages{SurfaceContact(model.contact), {}, model.mesh.parts, {}}) {
+    : stages_(new Stages{SurfaceContact(model.contact), {}, model.mesh.parts, {}, {}}) {
   Stages& s = *stages_;
   s.surface.name_parts(model.mesh.part_names);
   s.bulk_modulus.assign(model.mesh.part_names.size(), 0);
@@ -86,12 +93,29 @@ void Contact::follow(const Insertion& insertion) {
 }
 
 void Contact::add_segments(std::span<const FacetUse> facets, const Topology& topology, const Nodes& nodes) {
-  std::vector<std::int64_t>& dormant = stages_->dormant;
+  Stages& s = *stages_;
+  std::vector<FacetUse> fresh;
   for (const FacetUse use : facets) {
-    const auto found = std::lower_bound(dormant.begin(), dormant.end(), Stages::key(use));
-    if (found != dormant.end() && *found == Stages::key(use)) dormant.erase(found);
+    s.wake(use);
+    if (!s.removed.contains(use.element) && !s.surface.has_facet(topology, use)) fresh.push_back(use);
   }
-  stages_->add(facets, topology, nodes.reference);
+  s.add(fresh, topology, nodes.reference);
+}
+
+void Contact::remove_elements(std::span<const Index> elements, const Topology& topology, const Nodes& nodes) {
+  Stages& s = *stages_;
+  s.removed.insert(elements.begin(), elements.end());
+  std::vector<FacetUse> freed;
+  for (const Index e : elements) {
+    s.surface.remove_element(e);
+    for (Index f = 0; f < topology.facet_count(e); ++f) {
+      s.wake({e, f});
+      FacetUse mate = topology.mate({e, f});
+      if (mate.element >= topology.bulk_count()) mate = topology.mate({mate.element, 1 - mate.facet});
+      if (mate.element != kNone) freed.push_back(mate);
+    }
+  }
+  add_segments(freed, topology, nodes);
 }
 
 Contact::Search Contact::due(const Nodes& nodes, double step) {
@@ -131,7 +155,8 @@ Contact::Energy Contact::energy() const {
   return {stages_->surface.stored_energy(), stages_->surface.friction_heat()};
 }
 Index Contact::segment_count() const {
-  return stages_->surface.segment_count() + static_cast<Index>(stages_->dormant.size());
+  return stages_->surface.segment_count() - stages_->surface.removed_count() +
+         static_cast<Index>(stages_->dormant.size());
 }
 double Contact::deepest_penetration() const {
   return stages_->surface.deepest_penetration();
@@ -146,6 +171,16 @@ std::size_t Contact::pair_count() const {
 std::size_t Contact::touching_count() const {
   return stages_->surface.touching_count();
 }
+void Contact::archive(Archive& a) {
+  Stages& s = *stages_;
+  s.surface.archive(a);
+  std::vector<Index> removed(s.removed.begin(), s.removed.end());
+  std::sort(removed.begin(), removed.end());
+  a("contact.dormant", s.dormant);
+  a("contact.removed", removed);
+  s.removed = {removed.begin(), removed.end()};
+}
+
 double Contact::stiffness_over_mass() const {
   return stages_->surface.stiffness_over_mass();
 }

@@ -22,8 +22,13 @@ class Contact {
 
   /// Corners of segments that now name new nodes; the copies are new contact nodes where their mothers were.
   void follow(const Insertion& insertion);
-  /// Faces that came free (both sides of broken cohesive elements) become segments; edges follow.
+  /// Faces that came free (both sides of broken cohesive elements) become segments; edges follow. Those of
+  /// elements that are no more are left out.
   void add_segments(std::span<const FacetUse> facets, const Topology& topology, const Nodes& nodes);
+
+  /// Elements that are no more, and those of their neighbours' facets that came free with them. A neighbour
+  /// across a cohesive element counts.
+  void remove_elements(std::span<const Index> elements, const Topology& topology, const Nodes& nodes);
 
   /// The search that is due at this step.
   enum class Search { none, regular, adaptive };
@@ -43,11 +48,12 @@ class Contact {
   };
   Energy energy() const;
 
-  Index segment_count() const;
+  Index segment_count() const;         ///< of what there is now
   double deepest_penetration() const;  ///< m, seen so far
   std::vector<std::string> warnings() const;
   std::size_t pair_count() const;  ///< candidates of the last search
   std::size_t touching_count() const;
+  void archive(Archive& a);
   /// Largest contact stiffness at a node over its mass, 1/s2, of the last `add_force`: for the stable step.
   double stiffness_over_mass() const;
 

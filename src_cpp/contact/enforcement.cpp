@@ -132,6 +132,11 @@ void SurfaceContact::add_force(const Arrays& arrays, double step, int threads) {
   require_positive(step, "the step");
   const double friction = s.settings.friction;
   for (BodyPair& bodies : s.body_pairs) bodies.stored = 0, bodies.force = {};
+  for (const TouchingPair& lost : s.removed_touches) {
+    const Vec3 slip = step * slip_speed(lost, arrays.velocity.data());
+    s.body_pair(lost).friction_heat += lost.stored - 0.5 * dot(lost.force, slip);
+  }
+  s.removed_touches.clear();
   if (friction > 0) {
     for (const TouchingPair* old : s.ended) {
       const Vec3 slip = step * slip_speed(*old, arrays.velocity.data());

@@ -3,6 +3,7 @@
 
 #include "cdfp/contact.hpp"
 #include "contact/stages.hpp"
+#include "core/numbered.hpp"
 #include "core/require.hpp"
 #include "core/vec3.hpp"
 
@@ -64,15 +65,15 @@ void SurfaceContact::add_facets(const FacetSource& source, std::span<const Facet
     const Index part = source.parts[use.element];
     if (part < 0 || part >= static_cast<Index>(source.bulk_modulus.size())) {
       return "there are bulk moduli of " + std::to_string(source.bulk_modulus.size()) +
-             " parts, but the element is of part " + std::to_string(part);
+             " parts, but the element is of part " + numbered(part);
     }
     return {};
   };
   for (const FacetUse& use : facets) {
     const std::string fault = wrong(use);
     if (fault.empty()) continue;
-    refuse("facet " + std::to_string(use.facet) + " of element " + std::to_string(use.element) +
-           " cannot be a contact segment: " + fault + ", counted from 0");
+    refuse("facet " + numbered(use.facet) + " of element " + numbered(use.element) +
+           " cannot be a contact segment: " + fault + ", counted from " + numbered(0));
   }
   for (const FacetUse& use : facets) {
     const FacetNodes facet = topology.facet_nodes(use);
@@ -81,6 +82,10 @@ void SurfaceContact::add_facets(const FacetSource& source, std::span<const Facet
                  facet_shape(facet, source.reference, Vec3{}).area,
                  element_volume(topology, source.reference, use.element)});
   }
+}
+
+bool SurfaceContact::has_facet(const Topology& topology, FacetUse facet) const {
+  return stages_->surface.has_segment(facet.element, topology.facet_nodes(facet).nodes);
 }
 
 void SurfaceContact::follow(std::span<const Insertion::NewNode> new_nodes,

@@ -150,7 +150,7 @@ void ContactSearch::Cells::place_segments(const SurfaceView& s, const Threads& t
   });
   double sum = 0;
   for (const double piece : lengths) sum += piece;
-  const double mean = segments > 0 ? sum / segments : 0;
+  const double mean = segments > s.removed ? sum / (segments - s.removed) : 0;
   if (!std::isfinite(mean)) {
     throw Error(Status::diverged,
                 "contact search: a segment's corner has a position that is not finite; reduce the step");
@@ -371,6 +371,30 @@ std::span<const Index> ContactSearch::touched_node_rows() const {
 std::span<const Index> ContactSearch::touched_edge_rows() const {
   return cells_->touched_edges;
 }
+void ContactSearch::archive(Archive& a) {
+  Cells& c = *cells_;
+  a("search.searched", c.searched);
+  a("search.buffer", c.buffer);
+  a("search.length", c.length);
+  a("search.travel", c.travel);
+  a("search.entities_then", c.entities_then);
+  a("search.nodes", c.nodes);
+  a("search.segments", c.segments);
+  a("search.edges", c.edges);
+  a("search.origin", c.origin);
+  a("search.rough", c.rough);
+  c.node_cells.archive(a);
+  c.segment_cells.archive(a);
+  c.edge_cells.archive(a);
+  c.node_segments.archive(a);
+  c.edge_edges.archive(a);
+  a("search.touched_nodes", c.touched_nodes);
+  a("search.touched_edges", c.touched_edges);
+  a("search.row_of_node", c.row_of_node);
+  a("search.corners_then", c.corners_then);
+  a("search.ends_then", c.ends_then);
+}
+
 std::size_t ContactSearch::memory() const {
   const Cells& c = *cells_;
   std::size_t pairs = 0;

@@ -182,6 +182,7 @@ bool SurfaceContact::Stages::edges_touch(const double* x, Index m, Index n, doub
     room = std::min(room, std::sqrt(distance2) - reach);
     return false;
   }
+  if (surface.is_removed_edge(m) || surface.is_removed_edge(n)) return false;
   const LineCrossing crossing = cross_lines(a, b, c, d);
   if (crossing.sine < kLeastSine) {
     room = std::min(room, crossing.sine < 0.6 * kLeastSine ? 0.01 * shorter : 0.0);

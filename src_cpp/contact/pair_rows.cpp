@@ -4,6 +4,7 @@
 
 #include "cdfp/contact.hpp"
 #include "cdfp/error.hpp"
+#include "core/archive.hpp"
 #include "core/parallel.hpp"
 
 namespace cdfp {
@@ -27,6 +28,13 @@ void PairRows::compress(std::vector<Index>& start, std::vector<Index>& partners)
 std::size_t PairRows::memory() const {
   return (start_.capacity() + partners_.capacity() + head_.capacity()) * sizeof(Index) +
          added_.capacity() * sizeof(Added);
+}
+
+void PairRows::archive(Archive& a) {
+  a("pairs.start", start_);
+  a("pairs.partners", partners_);
+  a("pairs.head", head_);
+  a("pairs.added", added_);
 }
 
 void PairRows::Found::start(Index first, Index partners, Index rows) {

@@ -57,9 +57,12 @@ struct SurfaceContact::Stages {
   std::vector<double> piece_speed;
 
   SurfaceView view(const Arrays& arrays) const {
-    return {arrays.position, surface.nodes(), surface.segments(),
+    return {arrays.position,
+            surface.nodes(),
+            surface.segments(),
             settings.edge_edge ? std::span<const Index>(surface.edges()) : std::span<const Index>(),
-            arrays.group};
+            arrays.group,
+            surface.removed_count()};
   }
 
   /// What holds a contact node: it touches one face at a time.
@@ -105,6 +108,7 @@ struct SurfaceContact::Stages {
   std::vector<std::int32_t> ended_here;  // by contact node: the last step in which a pair with it ended
   std::vector<Link> links;
   std::vector<TouchingPair> node_touches, old_node_touches, edge_touches, old_edge_touches;
+  std::vector<TouchingPair> removed_touches;  // since the last forces
 
   struct Deepest {
     double share = 0, depth = 0;
@@ -130,6 +134,8 @@ struct SurfaceContact::Stages {
   bool edges_touch(const double* x, Index m, Index n, double& room, TouchingPair* touch) const;
   void look_at_edge(const double* x, Index active);
   void hand_over();
+  void let_go_of_removed();
+  void bar_removed();
   BodyPair& body_pair(const TouchingPair& pair);
   void add_to_sums(const TouchingPair& pair);
 };

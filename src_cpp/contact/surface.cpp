@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cdfp/error.hpp"
+#include "core/numbered.hpp"
 
 namespace cdfp {
 
@@ -39,8 +40,7 @@ Index Surface::add_segment(const SurfaceContact::Segment& segment) {
   if (segment.element < 0 || !(segment.area > 0) || !(segment.volume > 0) || !(segment.bulk_modulus > 0) ||
       *std::min_element(segment.nodes.begin(), segment.nodes.begin() + 3) < 0) {
     throw Error(Status::bad_argument,
-                "contact segment " + std::to_string(number) + " of element " +
-                    std::to_string(segment.element) +
+                "contact segment " + numbered(number) + " of element " + numbered(segment.element) +
                     ": element and corners must be given, area, volume and bulk modulus positive");
   }
   data_.push_back({penalty_factor_ * segment.bulk_modulus * segment.area * segment.area / segment.volume,
@@ -97,6 +97,32 @@ void Surface::rename(Index element, Index old_node, Index new_node) {
       renamed_edges_.push_back(e);
     }
   }
+}
+
+bool Surface::remove(Index element) {
+  if (element >= static_cast<Index>(first_segment_.size()) || first_segment_[element] == kNone) return false;
+  for (Index s = first_segment_[element]; s != kNone; s = next_segment_[s]) {
+    Index* nodes = &segments_[4 * static_cast<std::size_t>(s)];
+    for (Index i = 0; i < 4 && nodes[i] != kNone; ++i) detach(4 * s + i);
+    nodes[1] = nodes[2] = nodes[0];
+    nodes[3] = kNone;
+    data_[s].height = 0;
+    ++removed_;
+  }
+  for (Index e = first_edge_[element]; e != kNone; e = next_edge_[e]) {
+    edges_[2 * static_cast<std::size_t>(e) + 1] = edges_[2 * static_cast<std::size_t>(e)];
+    edge_data_[e].height = 0;
+  }
+  first_segment_[element] = first_edge_[element] = kNone;
+  return true;
+}
+
+bool Surface::has_segment(Index element, const std::array<Index, 4>& nodes) const {
+  if (element >= static_cast<Index>(first_segment_.size())) return false;
+  for (Index s = first_segment_[element]; s != kNone; s = next_segment_[s]) {
+    if (std::equal(nodes.begin(), nodes.end(), corners(s))) return true;
+  }
+  return false;
 }
 
 std::size_t Surface::memory() const {

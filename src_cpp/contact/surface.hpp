@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cdfp/contact.hpp"
+#include "core/archive.hpp"
 
 namespace cdfp {
 
@@ -12,20 +13,28 @@ class Surface {
  public:
   struct SegmentData {
     double stiffness;  ///< N/m, zeta K A^2 / V
-    double height;     ///< m, V / A
+    double height;     ///< m, V / A; 0 once removed
     Index element;
     Index part;
   };
   struct EdgeData {
     std::array<Index, 2> segments;  ///< both of one element
     double stiffness;
-    double height;
+    double height;  ///< 0 once removed
   };
 
   explicit Surface(double penalty_factor) : penalty_factor_(penalty_factor) {}
 
   Index add_segment(const SurfaceContact::Segment& segment);
   void rename(Index element, Index old_node, Index new_node);
+  /// Its segments and edges take no part from now on: each shrinks to one of its corners. Returns whether it
+  /// had any.
+  bool remove(Index element);
+  bool is_removed(Index segment) const { return !(data_[segment].height > 0); }
+  bool is_removed_edge(Index edge) const { return !(edge_data_[edge].height > 0); }
+  Index removed_count() const { return removed_; }
+  /// Whether the element has a segment with these corners.
+  bool has_segment(Index element, const std::array<Index, 4>& nodes) const;
 
   Index segment_count() const { return static_cast<Index>(data_.size()); }
   Index edge_count() const { return static_cast<Index>(edge_data_.size()); }
@@ -64,6 +73,7 @@ class Surface {
     renamed_segments_.clear();
     renamed_edges_.clear();
   }
+  void archive(Archive& a);
   std::size_t memory() const;
 
  private:
@@ -74,6 +84,7 @@ class Surface {
 
   double penalty_factor_;
   Index node_limit_ = 0;
+  Index removed_ = 0;
   std::vector<Index> nodes_, segments_, edges_;
   std::vector<SegmentData> data_;
   std::vector<EdgeData> edge_data_;

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "contact/stages.hpp"
+#include "core/numbered.hpp"
 #include "core/require.hpp"
 
 namespace cdfp {
@@ -69,15 +70,15 @@ Index SurfaceContact::add_segment(const Segment& segment) {
 
 void SurfaceContact::rename(Index element, Index old_node, Index new_node) {
   require(element >= 0 && old_node >= 0 && new_node >= 0,
-          "element " + std::to_string(element) + " is to name node " + std::to_string(new_node) + " for " +
-              std::to_string(old_node) + "; numbers count from 0");
+          "element " + numbered(element) + " is to name node " + numbered(new_node) + " for " +
+              numbered(old_node) + "; numbers count from " + numbered(0));
   stages_->surface.rename(element, old_node, new_node);
 }
 
 void SurfaceContact::split(Index mother, Index copy) {
   Stages& s = *stages_;
-  require(mother >= 0 && copy >= 0, "node " + std::to_string(copy) + " is said to be a copy of node " +
-                                        std::to_string(mother) + "; nodes count from 0");
+  require(mother >= 0 && copy >= 0, "node " + numbered(copy) + " is said to be a copy of node " +
+                                        numbered(mother) + "; nodes count from " + numbered(0));
   const Index from = s.surface.row(mother), to = s.surface.row(copy);
   if (from == kNone || to == kNone || from >= static_cast<Index>(s.holds.size())) return;
   if (s.holds.size() <= static_cast<std::size_t>(to)) s.holds.resize(to + 1);
@@ -121,6 +122,7 @@ void SurfaceContact::regular_search(const Arrays& arrays, int threads) {
   std::fill(s.has_pairs.begin(), s.has_pairs.end(), 0);
   std::fill(s.is_partner.begin(), s.is_partner.end(), 0);
   std::fill(s.edge_has_pairs.begin(), s.edge_has_pairs.end(), 0);
+  s.bar_removed();
   s.active_nodes.clear();
   s.active_segments.clear();
   s.active_edges.clear();
@@ -141,6 +143,7 @@ void SurfaceContact::adaptive_search(const Arrays& arrays) {
       s.view(arrays), s.surface.renamed_segments(),
       s.settings.edge_edge ? std::span<const Index>(s.surface.renamed_edges()) : std::span<const Index>());
   s.grow_to_surface();
+  s.bar_removed();
   for (const Index row : s.search.touched_node_rows()) s.activate_node(arrays.position.data(), row);
   for (const Index edge : s.search.touched_edge_rows()) s.activate_edge(edge);
   s.edge_hits.resize(s.active_edges.size());
@@ -149,7 +152,7 @@ void SurfaceContact::adaptive_search(const Arrays& arrays) {
 void SurfaceContact::Stages::need_nodes(std::span<const double> vectors, const char* name) const {
   require(vectors.size() % 3 == 0 && vectors.size() / 3 >= static_cast<std::size_t>(surface.node_limit()),
           std::string("'") + name + "' is of " + std::to_string(vectors.size() / 3) +
-              " nodes, but contact segments name node " + std::to_string(surface.node_limit() - 1) +
+              " nodes, but contact segments name node " + numbered(surface.node_limit() - 1) +
               "; give arrays of all nodes");
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/archive.hpp"
+
 namespace cdfp {
 
 class StageClock {
@@ -28,6 +30,14 @@ class StageClock {
     work();
     stages_[stage].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     ++stages_[stage].calls;
+  }
+
+  void archive(Archive& a) {
+    a.require_same("stages", stages_.size());
+    for (Stage& stage : stages_) {
+      a("stage.seconds", stage.seconds);
+      a("stage.calls", stage.calls);
+    }
   }
 
   const std::vector<Stage>& stages() const { return stages_; }

@@ -369,6 +369,7 @@ void read_output(TomlTable& top, Model& model) {
   if (!t) return;
   t->read("snapshot_times", model.output.snapshot_times, kNotNegative);
   t->read("history_interval", model.output.history_interval, {.least = 1});
+  t->read("restart_interval", model.output.restart_interval, {.least = 0});
   t->finish();
 }
 

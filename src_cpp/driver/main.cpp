@@ -36,10 +36,10 @@ int check(const std::string& case_file) {
   return 0;
 }
 
-int run(const std::string& case_file, const std::string& folder, int threads) {
+int run(const std::string& case_file, const std::string& folder, int threads, const std::string& restart) {
   cdfp::Model model = cdfp::read_case(case_file);
   if (threads > 0) model.threads = threads;
-  return cdfp::run_case(std::move(model), folder) ? 0 : kInterrupted;
+  return cdfp::run_case(std::move(model), folder, restart) ? 0 : kInterrupted;
 }
 
 int build(const std::string& source, const std::string& output, bool single) {
@@ -75,6 +75,9 @@ int main(int argc, char** argv) {
   run_command
       ->add_option("--threads", threads, "Threads (default: the case's, or as many as the machine has)")
       ->check(CLI::Range(1, 1024));
+  std::string restart;
+  run_command->add_option("--restart", restart,
+                          "Go on from restart.cdfp, as an earlier run of the case has saved it");
   CLI::App* check_command = app.add_subcommand("check", "Read and check a case without running it");
   check_command->add_option("CASE", case_file, "Case file (TOML)")->required();
   std::string source;
@@ -93,7 +96,7 @@ int main(int argc, char** argv) {
   try {
     if (check_command->parsed()) return check(case_file);
     if (build_command->parsed()) return build(source, library, single);
-    return run(case_file, folder.empty() ? default_folder(case_file) : folder, threads);
+    return run(case_file, folder.empty() ? default_folder(case_file) : folder, threads, restart);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "cdfp: error: %s\n", error.what());
     return kFailed;

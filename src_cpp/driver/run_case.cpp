@@ -45,13 +45,19 @@ class Schedule {
   std::size_t next_ = 0;
 };
 
-void step_to_end(Simulation& simulation, Recorder& recorder, Schedule& schedule) {
+void step_to_end(Simulation& simulation, Recorder& recorder, Schedule& schedule,
+                 const std::string& restart_file) {
   Progress progress;
   auto next_flush = std::chrono::steady_clock::now() + kFlushInterval;
+  const std::int64_t restart_interval = simulation.model().output.restart_interval;
   if (schedule.due(simulation.time(), simulation.step_size())) recorder.snapshot(simulation.frame());
   while (!simulation.finished() && !interrupted()) {
     simulation.step();
     if (schedule.due(simulation.time(), simulation.step_size())) recorder.snapshot(simulation.frame());
+    const bool last = simulation.finished() || interrupted();
+    if (restart_interval > 0 && (last || simulation.step_count() % restart_interval == 0)) {
+      simulation.save(restart_file);
+    }
     progress.show_if_due(simulation);
     if (std::chrono::steady_clock::now() >= next_flush) {
       recorder.history(simulation.history());
@@ -63,15 +69,20 @@ void step_to_end(Simulation& simulation, Recorder& recorder, Schedule& schedule)
 
 }  // namespace
 
-bool run_case(Model model, const std::string& folder) {
+bool run_case(Model model, const std::string& folder, const std::string& restart) {
   const std::vector<std::string> crack_parts = parts_that_crack(model);
   Simulation simulation(std::move(model));
-  Recorder recorder(folder, crack_parts);
   Schedule schedule(simulation.model().output.snapshot_times);
+  if (!restart.empty()) {
+    simulation.restore(restart);
+    schedule.due(simulation.time(), simulation.step_size());
+  }
+  Recorder recorder = restart.empty() ? Recorder(folder, crack_parts)
+                                      : Recorder::continued(folder, crack_parts, simulation.time());
   watch_interrupts();
   std::exception_ptr failure;
   try {
-    step_to_end(simulation, recorder, schedule);
+    step_to_end(simulation, recorder, schedule, folder + "/restart.cdfp");
   } catch (const std::exception&) {
     failure = std::current_exception();
   }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cdfp/error.hpp"
+#include "core/numbered.hpp"
 #include "element/block_order.hpp"
 #include "element/full_integration.hpp"
 #include "element/one_point.hpp"
@@ -143,7 +144,7 @@ std::vector<Index> first_corners_of(const Mesh& mesh) {
     if (type != ElementType::hexahedron && type != ElementType::tetrahedron) {
       throw Error(
           Status::bad_mesh,
-          "element " + std::to_string(e) +
+          "element " + numbered(e) +
               " is neither a hexahedron nor a tetrahedron; only these have a stiffness, so mesh part '" +
               mesh.part_names[mesh.parts[e]] + "' with them");
     }
@@ -198,7 +199,7 @@ void ElementBlocks::sort_into_groups(const Model& model, const Threads& threads)
   if (const auto bad = std::find(inverted.begin(), inverted.end(), 1); bad != inverted.end()) {
     const auto e = bad - inverted.begin();
     throw Error(Status::bad_mesh,
-                "element " + std::to_string(e) + " of part '" + mesh.part_names[mesh.parts[e]] +
+                "element " + numbered(e) + " of part '" + mesh.part_names[mesh.parts[e]] +
                     "' is inverted or degenerate; order its corners as in VTK and repair the mesh there");
   }
 

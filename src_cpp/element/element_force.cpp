@@ -9,6 +9,7 @@
 #include "element/element_blocks.hpp"
 #include "element/one_point.hpp"
 #include "element/single_element.hpp"
+#include "material/stored.hpp"
 
 namespace cdfp {
 
@@ -36,7 +37,8 @@ struct ElementForce::Blocks : ElementBlocks {
   std::vector<Mat3> critical_stress;
   std::vector<Index> deleted;  ///< by the last step of users' laws
 
-  void remove(BlockGroup& group, std::size_t slot);
+  void remove(BlockGroup& group, std::size_t slot, std::span<const double> position);
+  static void clear_stiffness(BlockGroup& group, std::size_t slot);
 };
 
 ElementForce::Blocks::Blocks(const Model& model)
@@ -76,8 +78,23 @@ bool ElementForce::Blocks::has_moved(const BlockGroup& group, std::size_t block,
   return false;
 }
 
-/// A deleted element has neither stress nor hourglass stiffness, and does not bound the step.
-void ElementForce::Blocks::remove(BlockGroup& group, std::size_t slot) {
+/// A deleted element has neither stress nor hourglass stiffness, whose energy is lost, and does not bound the
+/// step.
+void ElementForce::Blocks::remove(BlockGroup& group, std::size_t slot, std::span<const double> position) {
+  using host::Stored;
+  const std::size_t row = slot / kLanes, lane = slot % kLanes;
+  const double lost = hourglass_density(group, slot, position);
+  Lanes* state = &group.state[row * static_cast<std::size_t>(group.kernel->state)];
+  for (int point = 0; point < group.kernel->state / Stored::kState; ++point) {
+    for (const int k : {Stored::kWork, Stored::kDissipated}) {
+      state[point * Stored::kState + k].value[lane] += lost;
+    }
+  }
+  clear_stiffness(group, slot);
+  deleted.push_back(group.elements[slot]);
+}
+
+void ElementForce::Blocks::clear_stiffness(BlockGroup& group, std::size_t slot) {
   const std::size_t row = slot / kLanes, lane = slot % kLanes;
   Lanes* constants = &group.constants[row * static_cast<std::size_t>(group.kernel->constants)];
   const auto clear_hourglass = [&]<class Shape>() {
@@ -86,7 +103,6 @@ void ElementForce::Blocks::remove(BlockGroup& group, std::size_t slot) {
   if (group.kind == BlockKind::prism_stored) clear_hourglass.operator()<host::Prism>();
   if (group.kind == BlockKind::hexahedron_stored) clear_hourglass.operator()<host::Hexahedron>();
   for (int k = 0; k < 4; ++k) group.step_terms[4 * row + static_cast<std::size_t>(k)].value[lane] = 0;
-  deleted.push_back(group.elements[slot]);
 }
 
 /// Through a set of bits, so that any number of elements comes out ascending in linear time.
@@ -146,7 +162,7 @@ std::span<const Index> ElementForce::advance_user_laws(std::span<const double> p
     for (std::size_t block = 0; block < group.blocks(); ++block)
       inputs.push_back(group.input(block, position));
     group.user->advance(*group.kernel, time, step, threads, inputs, group.state.data());
-    for (const std::size_t slot : group.user->take_deleted()) blocks_->remove(group, slot);
+    for (const std::size_t slot : group.user->take_deleted()) blocks_->remove(group, slot, position);
   }
   std::sort(blocks_->deleted.begin(), blocks_->deleted.end());
   return blocks_->deleted;
@@ -313,6 +329,24 @@ Index ElementForce::first_inverted(std::span<const double> position) const {
     if (!(volume > 0) || !std::isfinite(volume)) return static_cast<Index>(e);
   }
   return kNone;
+}
+
+void ElementForce::archive(Archive& a) {
+  Blocks& b = *blocks_;
+  for (BlockGroup& group : b.groups) {
+    a.require_same("elements.components", group.state.size());
+    a("elements.state", group.state);
+    if (!group.user) continue;
+    group.user->archive(a);
+    for (std::size_t slot = 0; a.reads() && slot < group.elements.size(); ++slot) {
+      if (group.user->is_deleted(slot)) Blocks::clear_stiffness(group, slot);
+    }
+  }
+  a.require_same("elements.blocks", b.block_count);
+  a("elements.awake", b.is_awake);
+  a("elements.critical", b.critical_now);
+  a("elements.critical_stress", b.critical_stress);
+  if (a.reads() && !b.critical_set.empty()) b.list_critical();
 }
 
 std::size_t ElementForce::memory() const {

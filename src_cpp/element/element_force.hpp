@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cdfp/model.hpp"
+#include "core/archive.hpp"
 #include "core/parallel.hpp"
 #include "core/vec3.hpp"
 
@@ -95,6 +96,9 @@ class ElementForce {
 
   /// First element with a non-finite or non-positive volume at `position`, or kNone.
   Index first_inverted(std::span<const double> position) const;
+
+  /// All but the corners' nodes, which `replace_node` gives.
+  void archive(Archive& a);
 
   /// Bytes held an element, constants and state.
   std::size_t memory() const;

@@ -94,6 +94,20 @@ void element_force(const BlockGroup& group, std::size_t slot, std::span<const do
               });
 }
 
+double hourglass_density(const BlockGroup& group, std::size_t slot, std::span<const double> position) {
+  double density = 0;
+  with_stress(group, slot, position, [&]<class Formulation>(const double* constants, const auto& x, auto&&) {
+    double strain = 0, hourglass = 0, volume = 0;
+    Formulation::energy(group.plan.constants, constants, x, strain, hourglass,
+                        [](const Symmetric<double>&, int) { return 0.0; });
+    for (int point = 0; point < Formulation::kPoints; ++point) {
+      volume += Formulation::template volume<double>(constants, point);
+    }
+    density = hourglass / volume;
+  });
+  return density;
+}
+
 double element_volume(const BlockGroup& group, std::size_t slot, std::span<const double> position) {
   const auto gathered = [&](auto& x) {
     for (Eigen::Index corner = 0; corner < x.rows(); ++corner) {

@@ -15,6 +15,9 @@ Mat3 element_stress(const BlockGroup& group, std::size_t slot, std::span<const d
 void element_force(const BlockGroup& group, std::size_t slot, std::span<const double> position,
                    std::span<double> force);
 
+/// J/m3: energy in hourglass modes over the undeformed volume.
+double hourglass_density(const BlockGroup& group, std::size_t slot, std::span<const double> position);
+
 /// m3; negative where it is inside out.
 double element_volume(const BlockGroup& group, std::size_t slot, std::span<const double> position);
 

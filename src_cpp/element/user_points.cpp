@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "cdfp/error.hpp"
+#include "core/numbered.hpp"
 #include "material/stored.hpp"
 
 namespace cdfp {
@@ -145,8 +146,8 @@ void UserPoints::fail(std::size_t slot, int point, double time, const std::strin
   char when[64];
   std::snprintf(when, sizeof when, " at time %.6g us", 1e6 * time);
   throw Error(Status::diverged, "material '" + plan_.material + "', element " +
-                                    std::to_string(elements_[slot].number) + " (part '" + plan_.part +
-                                    "'), point " + std::to_string(point) + when + ": " + what);
+                                    numbered(elements_[slot].number) + " (part '" + plan_.part +
+                                    "'), point " + numbered(point) + when + ": " + what);
 }
 
 void UserPoints::check_guards(const Kept& k, std::size_t block, int point, double time) const {
@@ -440,6 +441,14 @@ void UserPoints::advance(const BlockKernel& kernel, double time, double step, co
   }
   if (failure) std::rethrow_exception(failure);
   now_ = 1 - now_;
+}
+
+void UserPoints::archive(Archive& a) {
+  a.require_same("user_points.store", store_.size());
+  a("user_points.values", store_);
+  a("user_points.half", now_);
+  a("user_points.alive", alive_);
+  a("user_points.gone", gone_);
 }
 
 std::vector<std::size_t> UserPoints::take_deleted() {

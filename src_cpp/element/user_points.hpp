@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cdfp/model.hpp"
+#include "core/archive.hpp"
 #include "core/parallel.hpp"
 #include "core/vec3.hpp"
 #include "element/block.hpp"
@@ -47,6 +48,8 @@ class UserPoints {
 
   /// Slots of the elements that the last step deleted.
   std::vector<std::size_t> take_deleted();
+
+  void archive(Archive& a);
 
   // Means over an element's points.
   double mean_state(std::size_t slot, int state) const;

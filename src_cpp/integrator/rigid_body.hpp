@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cdfp/model.hpp"
+#include "core/archive.hpp"
 #include "core/vec3.hpp"
 #include "state/nodes.hpp"
 
@@ -25,6 +26,17 @@ class RigidMotion {
 
   /// Work of gravity over the drift to come, J.
   double gravity_work(Vec3 gravity, double step) const { return step * mass_ * dot(gravity, velocity_); }
+
+  void archive(Archive& a) {
+    a("rigid_body.center", center_);
+    a("rigid_body.rotation", rotation_);
+    a("rigid_body.velocity", velocity_);
+    a("rigid_body.angular_momentum", angular_momentum_);
+    a("rigid_body.angular_velocity", angular_velocity_);
+    a("rigid_body.force", force_);
+    a("rigid_body.last_acceleration", last_acceleration_);
+    a("rigid_body.last_torque", last_torque_);
+  }
 
   Vec3 center() const { return center_; }
   Vec3 velocity() const { return velocity_; }

@@ -10,6 +10,7 @@
 
 #include "cdfp/error.hpp"
 #include "cdfp/mesh.hpp"
+#include "core/numbered.hpp"
 #include "core/vec3.hpp"
 #include "mesh/element_shapes.hpp"
 
@@ -51,7 +52,7 @@ std::vector<std::size_t> check_sizes(const Mesh& mesh) {
   for (std::size_t e = 0; e < elements; ++e) {
     const ElementShape* shape = bulk_shape(mesh.types[e]);
     if (!shape) {
-      refuse("element " + number(e) + " is of no bulk type (type " +
+      refuse("element " + numbered(e) + " is of no bulk type (type " +
              std::to_string(static_cast<int>(mesh.types[e])) +
              "); cohesive elements are inserted by the simulation, leave them out of the mesh");
     }
@@ -75,27 +76,26 @@ std::vector<std::size_t> check_sizes(const Mesh& mesh) {
 void check_numbers(const Mesh& mesh, const std::vector<std::size_t>& first) {
   for (std::size_t i = 0; i < mesh.coordinates.size(); ++i) {
     if (!std::isfinite(mesh.coordinates[i])) {
-      refuse("node " + number(i / 3) + ": coordinate " + "xyz"[i % 3] + " is not a finite number");
+      refuse("node " + numbered(i / 3) + ": coordinate " + "xyz"[i % 3] + " is not a finite number");
     }
   }
   const Index nodes = mesh.node_count();
   for (std::size_t e = 0; e < mesh.types.size(); ++e) {
     const Index part = mesh.parts[e];
     if (part < 0 || static_cast<std::size_t>(part) >= mesh.part_names.size()) {
-      refuse("element " + number(e) + " is of part " + std::to_string(part) + ", but there are " +
-             number(mesh.part_names.size()) + " part names (numbered from 0)");
+      refuse("element " + numbered(e) + " is of part " + numbered(part) + ", but there are " +
+             number(mesh.part_names.size()) + " part names (numbered from " + numbered(0) + ")");
     }
     for (std::size_t i = first[e]; i < first[e + 1]; ++i) {
       const Index node = mesh.connectivity[i];
       if (node < 0 || node >= nodes) {
-        refuse("element " + number(e) + ", corner " + number(i - first[e]) + ": node " +
-               std::to_string(node) + " is out of range (nodes are numbered 0 to " +
-               std::to_string(nodes - 1) + ")");
+        refuse("element " + numbered(e) + ", corner " + numbered(i - first[e]) + ": node " + numbered(node) +
+               " is out of range (nodes are numbered " + numbered(0) + " to " + numbered(nodes - 1) + ")");
       }
       for (std::size_t j = first[e]; j < i; ++j) {
         if (mesh.connectivity[j] == node) {
-          refuse("element " + number(e) + " names node " + std::to_string(node) + " at corners " +
-                 number(j - first[e]) + " and " + number(i - first[e]) +
+          refuse("element " + numbered(e) + " names node " + numbered(node) + " at corners " +
+                 numbered(j - first[e]) + " and " + numbered(i - first[e]) +
                  "; use a type with fewer corners or give it a node of its own");
         }
       }
@@ -105,10 +105,10 @@ void check_numbers(const Mesh& mesh, const std::vector<std::size_t>& first) {
 
 [[noreturn]] void refuse_shape(const Mesh& mesh, std::size_t element, Index corner, Index node,
                                bool inverted) {
-  refuse("element " + number(element) + " (" + bulk_shape(mesh.types[element])->name + ", part '" +
+  refuse("element " + numbered(element) + " (" + bulk_shape(mesh.types[element])->name + ", part '" +
          mesh.part_names[static_cast<std::size_t>(mesh.parts[element])] + "') is " +
-         (inverted ? "inverted" : "degenerate") + " at node " + std::to_string(node) + " (corner " +
-         std::to_string(corner) + ") " + point(mesh, node) +
+         (inverted ? "inverted" : "degenerate") + " at node " + numbered(node) + " (corner " +
+         numbered(corner) + ") " + point(mesh, node) +
          (inverted ? ": the Jacobian is negative; check the order of its corners (as in the VTK linear "
                      "cells) and where its nodes lie"
                    : ": its edges there have no volume; merge the coinciding nodes or move them apart"));
@@ -151,7 +151,7 @@ StoredFacet stored_facet(const Index* corners, const FacetCorners& facet, FacetU
 std::string facet_text(const StoredFacet& facet) {
   std::string text;
   for (const Index node : facet.sorted) {
-    if (node != kNone) text += (text.empty() ? "" : ", ") + std::to_string(node);
+    if (node != kNone) text += (text.empty() ? "" : ", ") + numbered(node);
   }
   return "the facet of nodes " + text;
 }
@@ -181,16 +181,16 @@ void check_facets(const Mesh& mesh, const std::vector<std::size_t>& first) {
       for (std::size_t j = start[node]; j < start[node + 1]; ++j) {
         if (j == i || facets[j].sorted != facets[i].sorted) continue;
         if (++others == 2) {
-          refuse(facet_text(facets[i]) + " is shared by elements " + std::to_string(facets[i].use.element) +
-                 ", " + std::to_string(mate->use.element) + " and " + std::to_string(facets[j].use.element) +
+          refuse(facet_text(facets[i]) + " is shared by elements " + numbered(facets[i].use.element) + ", " +
+                 numbered(mate->use.element) + " and " + numbered(facets[j].use.element) +
                  "; at most two may share one, remove or separate the others");
         }
         mate = &facets[j];
       }
       if (mate && mate->outward == facets[i].outward) {
-        refuse("elements " + std::to_string(facets[i].use.element) + " and " +
-               std::to_string(mate->use.element) + " lie on the same side of " +
-               facet_text(facets[i]).substr(4) + "; they overlap, remove one of them");
+        refuse("elements " + numbered(facets[i].use.element) + " and " + numbered(mate->use.element) +
+               " lie on the same side of " + facet_text(facets[i]).substr(4) +
+               "; they overlap, remove one of them");
       }
     }
   }
@@ -207,8 +207,9 @@ void check_sets(const Mesh& mesh) {
     if (!names.insert(set.name).second) refuse("two node sets are named '" + set.name + "'; rename one");
     for (const Index node : set.nodes) {
       if (node < 0 || node >= mesh.node_count()) {
-        refuse("node set '" + set.name + "': node " + std::to_string(node) +
-               " does not exist (nodes are numbered 0 to " + std::to_string(mesh.node_count() - 1) + ")");
+        refuse("node set '" + set.name + "': node " + numbered(node) +
+               " does not exist (nodes are numbered " + numbered(0) + " to " +
+               numbered(mesh.node_count() - 1) + ")");
       }
     }
   }
@@ -217,15 +218,15 @@ void check_sets(const Mesh& mesh) {
     if (!names.insert(set.name).second) refuse("two facet sets are named '" + set.name + "'; rename one");
     for (const FacetUse& use : set.facets) {
       if (use.element < 0 || use.element >= mesh.element_count()) {
-        refuse("facet set '" + set.name + "': element " + std::to_string(use.element) +
-               " does not exist (elements are numbered 0 to " + std::to_string(mesh.element_count() - 1) +
-               ")");
+        refuse("facet set '" + set.name + "': element " + numbered(use.element) +
+               " does not exist (elements are numbered " + numbered(0) + " to " +
+               numbered(mesh.element_count() - 1) + ")");
       }
       const ElementShape& shape = *bulk_shape(mesh.types[static_cast<std::size_t>(use.element)]);
       if (use.facet < 0 || static_cast<std::size_t>(use.facet) >= shape.facets.size()) {
-        refuse("facet set '" + set.name + "': element " + std::to_string(use.element) + " is a " +
-               shape.name + " and has no facet " + std::to_string(use.facet) + " (they are numbered 0 to " +
-               number(shape.facets.size() - 1) + ")");
+        refuse("facet set '" + set.name + "': element " + numbered(use.element) + " is a " + shape.name +
+               " and has no facet " + numbered(use.facet) + " (they are numbered " + numbered(0) + " to " +
+               numbered(shape.facets.size() - 1) + ")");
       }
     }
   }

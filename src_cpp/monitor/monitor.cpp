@@ -150,6 +150,24 @@ void Monitor::record(double time, std::int64_t step, double step_size, const Ene
   }
 }
 
+void Monitor::archive(Archive& a) {
+  a.require_same("monitor.columns", history_.columns.size());
+  a("monitor.history", history_.values);
+  a("monitor.energy_balance_min", extremes_.energy_balance_min);
+  a("monitor.energy_balance_max", extremes_.energy_balance_max);
+  a("monitor.first_contact", extremes_.first_contact_s);
+  a("monitor.peak_force", extremes_.peak_force_n);
+  a("monitor.peak_force_time", extremes_.peak_force_time_s);
+  for (Summary::FirstCrack& first : first_cracks_) {
+    a("monitor.first_crack.time", first.time_s);
+    a("monitor.first_crack.position", first.position);
+    a("monitor.first_crack.layer", first.layer);
+    a("monitor.first_crack.layer_face", first.layer_face);
+  }
+  a("monitor.strain_max", strain_max_);
+  a("monitor.hourglass_max", hourglass_max_);
+}
+
 void Monitor::fill(Summary& summary) const {
   summary.energy_balance_min = extremes_.energy_balance_min;
   summary.energy_balance_max = extremes_.energy_balance_max;

@@ -10,6 +10,7 @@
 #include "cdfp/model.hpp"
 #include "cdfp/results.hpp"
 #include "cdfp/topology.hpp"
+#include "core/archive.hpp"
 #include "core/vec3.hpp"
 #include "element/element_force.hpp"
 #include "state/nodes.hpp"
@@ -36,6 +37,7 @@ class Monitor {
               const std::vector<Body>& bodies, std::span<const SurfaceContact::BodyPair> contact_pairs);
 
   const History& history() const { return history_; }
+  void archive(Archive& a);
   /// The fields of the summary that come from watching.
   void fill(Summary& summary) const;
 

@@ -3,6 +3,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <system_error>
 
 namespace cdfp {
@@ -52,6 +54,11 @@ void write_whole_file(const std::filesystem::path& path, std::span<const std::st
 
 void append_to_file(const std::filesystem::path& path, std::string_view lines) {
   write_stream(path, "ab", std::span(&lines, 1));
+}
+
+std::string contents_of(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return stream ? std::string(std::istreambuf_iterator<char>(stream), {}) : std::string();
 }
 
 void make_folder(const std::filesystem::path& folder) {

@@ -22,6 +22,9 @@ void write_whole_file(const std::filesystem::path& path, std::span<const std::st
 /// Appends whole lines with one write.
 void append_to_file(const std::filesystem::path& path, std::string_view lines);
 
+/// Nothing if there is no such file.
+std::string contents_of(const std::filesystem::path& path);
+
 void make_folder(const std::filesystem::path& folder);
 
 /// Names the file, what the system said and the cure.

@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "output/files.hpp"
 #include "output/history_pictures.hpp"
 
 namespace cdfp {
@@ -128,6 +129,64 @@ void Pictures::keep(const Frame& frame) {
     add_panel(cracks_[i].panels, std::move(panel));
   }
   add_panel(section_.panels, std::move(section));
+  Archive kept;
+  archive(kept);
+  make_folder(kept_file().parent_path());
+  write_whole_file(kept_file(), kept.bytes());
+}
+
+void Pictures::take_up(double time) {
+  const std::string bytes = contents_of(kept_file());
+  if (bytes.empty()) return;
+  Pictures earlier(folder_, {});
+  try {
+    Archive kept(bytes);
+    earlier.archive(kept);
+  } catch (const Error&) {
+    return;  // of another build: pictures show what comes
+  }
+  if (earlier.parts_ != parts_) return;
+  *this = std::move(earlier);
+  const auto is_later = [time](const CrackPanel& panel) { return panel.time > time; };
+  for (CrackPicture& picture : cracks_) std::erase_if(picture.panels, is_later);
+  std::erase_if(section_.panels, is_later);
+}
+
+void Pictures::archive(Archive& a) {
+  const auto panels = [&a](std::vector<CrackPanel>& list) {
+    std::uint64_t count = list.size();
+    a("panels", count);
+    list.resize(count);
+    for (CrackPanel& panel : list) {
+      a("time", panel.time);
+      a("facets", panel.facets);
+    }
+  };
+  a("parts", parts_);
+  a("numbers", numbers_);
+  a("begun", begun_);
+  a("section_depth", section_depth_);
+  std::uint64_t count = cracks_.size();
+  a("cracks", count);
+  cracks_.resize(count);
+  for (CrackPicture& picture : cracks_) {
+    a("part", picture.part);
+    a("outline", picture.outline);
+    a("copies", picture.copies);
+    a("impact", picture.impact);
+    panels(picture.panels);
+  }
+  count = section_.bodies.size();
+  a("bodies", count);
+  section_.bodies.resize(count);
+  for (SectionPicture::Body& body : section_.bodies) {
+    a("outline", body.outline);
+    a("cracks", body.cracks);
+  }
+  a("shown", section_.shown);
+  a("copies", section_.copies);
+  a("impact", section_.impact);
+  panels(section_.panels);
 }
 
 void Pictures::draw(const History& history, const Summary& summary) const {

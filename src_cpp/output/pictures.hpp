@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cdfp/results.hpp"
+#include "core/archive.hpp"
 #include "output/crack_picture.hpp"
 #include "output/section_picture.hpp"
 
@@ -17,10 +18,15 @@ class Pictures {
  public:
   Pictures(std::filesystem::path folder, std::vector<std::string> crack_parts);
 
+  /// Also beside the snapshots, for a run that goes on.
   void keep(const Frame& frame);
+  /// Takes up what a run has kept in the folder up to `time`.
+  void take_up(double time);
   void draw(const History& history, const Summary& summary) const;
 
  private:
+  void archive(Archive& a);
+  std::filesystem::path kept_file() const { return folder_ / "snapshots" / "pictures.cdfp"; }
   void begin(const Frame& frame);
   void begin_section(const Frame& frame, const std::optional<std::array<double, 3>>& impact);
 

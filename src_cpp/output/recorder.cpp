@@ -21,7 +21,8 @@ namespace {
 void remove_earlier(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::vector<std::filesystem::path> earlier;
-  for (const char* name : {"results.pvd", "cracks.pvd", "history.csv", "results.h5", "summary.json"})
+  for (const char* name : {"results.pvd", "cracks.pvd", "history.csv", "results.h5", "summary.json",
+                           "restart.cdfp", "snapshots/pictures.cdfp"})
     earlier.push_back(folder / name);
   for (const auto& entry : std::filesystem::directory_iterator(folder / "snapshots", ignored))
     if (entry.path().extension() == ".vtu") earlier.push_back(entry.path());
@@ -41,31 +42,47 @@ struct Recorder::Files {
   Snapshots snapshots;
   HistoryCsv history_csv;
   History rows;
-  std::int64_t last_step = -1;
 #ifdef CDFP_HAS_CAIRO
   Pictures pictures;
 #endif
+
+  static std::unique_ptr<Files> in(const std::filesystem::path& path, std::vector<std::string> crack_parts);
 };
 
-Recorder::Recorder(const std::string& folder, [[maybe_unused]] std::vector<std::string> crack_parts) {
-  const std::filesystem::path path(folder);
+Recorder::Recorder(std::unique_ptr<Files> files) : files_(std::move(files)) {}
+Recorder::~Recorder() = default;
+Recorder::Recorder(Recorder&&) noexcept = default;
+Recorder& Recorder::operator=(Recorder&&) noexcept = default;
+
+std::unique_ptr<Recorder::Files> Recorder::Files::in(const std::filesystem::path& path,
+                                                     [[maybe_unused]] std::vector<std::string> crack_parts) {
   make_folder(path);
-  remove_earlier(path);
-  files_.reset(new Files{.folder = path,
-                         .snapshots = Snapshots(path),
-                         .history_csv = HistoryCsv(path / "history.csv"),
-                         .rows = {},
+  return std::unique_ptr<Files>(new Files{.folder = path,
+                                          .snapshots = Snapshots(path),
+                                          .history_csv = HistoryCsv(path / "history.csv"),
+                                          .rows = {},
 #ifdef CDFP_HAS_CAIRO
-                         .pictures = Pictures(path, std::move(crack_parts))
+                                          .pictures = Pictures(path, std::move(crack_parts))
 #endif
   });
 }
 
-Recorder::~Recorder() = default;
+Recorder::Recorder(const std::string& folder, std::vector<std::string> crack_parts)
+    : files_(Files::in(folder, std::move(crack_parts))) {
+  remove_earlier(files_->folder);
+}
+
+Recorder Recorder::continued(const std::string& folder, std::vector<std::string> crack_parts, double time) {
+  Recorder recorder(Files::in(folder, std::move(crack_parts)));
+  recorder.files_->snapshots.take_up(time);
+#ifdef CDFP_HAS_CAIRO
+  recorder.files_->pictures.take_up(time);
+#endif
+  return recorder;
+}
 
 void Recorder::snapshot(const Frame& frame) {
   files_->snapshots.write(frame);
-  files_->last_step = frame.step;
 #ifdef CDFP_HAS_HDF5
   write_results_h5(files_->folder / "results.h5", frame, files_->rows);
 #endif
@@ -81,7 +98,7 @@ void Recorder::history(const History& history) {
 
 void Recorder::finish(const Frame& last, const History& rows, const Summary& summary) {
   history(rows);
-  if (last.step != files_->last_step) snapshot(last);
+  if (files_->snapshots.last_time() != last.time) snapshot(last);
 #ifdef CDFP_HAS_HDF5
   write_results_h5(files_->folder / "results.h5", last, rows);
 #endif

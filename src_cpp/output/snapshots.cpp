@@ -1,7 +1,10 @@
 #include "output/snapshots.hpp"
 
+#include <charconv>
 #include <cstdio>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 #include "output/files.hpp"
 #include "output/numbers.hpp"
@@ -85,6 +88,31 @@ void Snapshots::write(const Frame& frame) {
   write_bulk(frame, folder_ / snapshot_name("", number));
   write_cracks(frame, folder_ / snapshot_name("cracks_", number));
   times_.push_back(frame.time);
+  write_collections();
+}
+
+void Snapshots::take_up(double time) {
+  const std::string earlier = contents_of(folder_ / "results.pvd");
+  static constexpr std::string_view kBefore = "timestep=\"";
+  std::size_t listed = 0;
+  times_.clear();
+  for (std::size_t at = earlier.find(kBefore); at != std::string::npos; at = earlier.find(kBefore, at)) {
+    at += kBefore.size();
+    double of_snapshot = 0;
+    std::from_chars(earlier.data() + at, earlier.data() + earlier.size(), of_snapshot);
+    if (of_snapshot <= time && listed == times_.size()) times_.push_back(of_snapshot);
+    ++listed;
+  }
+  if (listed == times_.size()) return;
+  write_collections();
+  std::error_code ignored;
+  for (std::size_t number = times_.size(); number < listed; ++number) {
+    for (const char* prefix : {"", "cracks_"})
+      std::filesystem::remove(folder_ / snapshot_name(prefix, number), ignored);
+  }
+}
+
+void Snapshots::write_collections() const {
   write_collection(folder_ / "results.pvd", "", times_);
   write_collection(folder_ / "cracks.pvd", "cracks_", times_);
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cdfp/error.hpp"
+#include "core/numbered.hpp"
 #include "scene/scene.hpp"
 
 namespace cdfp {
@@ -39,8 +40,8 @@ std::vector<FacetUse> bonded_facets(const Model& model, const Bond& bond, const 
   for (const FacetUse& use : facet_set(model.mesh, bond.facet_set).facets) {
     const FacetUse mate = topology.mate(use);
     if (mate.element == kNone || mate.element >= topology.bulk_count()) {
-      throw Error(Status::bad_argument, "bond: facet " + std::to_string(use.facet) + " of element " +
-                                            std::to_string(use.element) + " in facet set '" + bond.facet_set +
+      throw Error(Status::bad_argument, "bond: facet " + numbered(use.facet) + " of element " +
+                                            numbered(use.element) + " in facet set '" + bond.facet_set +
                                             "' has no element on its other side or is bonded already");
     }
     found.push_back(mate.element < use.element ? mate : use);

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "cohesive/check_law.hpp"
+#include "core/numbered.hpp"
 #include "core/require.hpp"
 #include "scene/scene.hpp"
 
@@ -140,7 +141,7 @@ void check_rigid_nodes(const Model& model) {
       Index& seen = owner[node];
       if (seen != kNone && seen != part && (rigid_part[part] || rigid_part[seen])) {
         refuse(
-            "node " + std::to_string(node) + " belongs to part '" + mesh.part_names[part] + "' and part '" +
+            "node " + numbered(node) + " belongs to part '" + mesh.part_names[part] + "' and part '" +
             mesh.part_names[seen] +
             "', of which one is rigid; give the rigid part nodes of its own and let them touch by contact");
       }
@@ -196,6 +197,7 @@ void check_settings(const Model& model) {
           "time: fixed_step must not be negative (0 chooses the step automatically)");
   require(model.time.step_factor > 0 && model.time.step_factor <= 1, "time: step_factor must lie in (0, 1]");
   require(model.output.history_interval >= 1, "output: history_interval must be at least 1 step");
+  require(model.output.restart_interval >= 0, "output: restart_interval must not be negative");
   for (const double t : model.output.snapshot_times) require(t >= 0, "output: a snapshot time is negative");
   require(model.threads >= 0, "threads must not be negative (0: as many as the machine has)");
 }

@@ -8,18 +8,19 @@
 #include <vector>
 
 #include "cdfp/types.hpp"
+#include "core/archive.hpp"
 #include "core/vec3.hpp"
 
 namespace cdfp {
 
 struct Nodes {
   std::span<const double> reference;  ///< (n, 3) undeformed position, m: of the mesh, which must stay
-  std::vector<double> position;     ///< (n, 3) at the end of the step, m
-  std::vector<double> velocity;     ///< (n, 3) at the half step, m/s
-  std::vector<double> force;        ///< (n, 3) sum over all stages of the step, N
-  std::vector<double> mass;         ///< (n) lumped, kg
-  std::vector<std::uint8_t> fixed;  ///< (n) bit d: direction d follows a constraint, not its force
-  std::vector<Index> body;          ///< (n) rigid body that carries the node, or kNone
+  std::vector<double> position;       ///< (n, 3) at the end of the step, m
+  std::vector<double> velocity;       ///< (n, 3) at the half step, m/s
+  std::vector<double> force;          ///< (n, 3) sum over all stages of the step, N
+  std::vector<double> mass;           ///< (n) lumped, kg
+  std::vector<std::uint8_t> fixed;    ///< (n) bit d: direction d follows a constraint, not its force
+  std::vector<Index> body;            ///< (n) rigid body that carries the node, or kNone
 
   explicit Nodes(std::span<const double> coordinates)
       : reference(coordinates),
@@ -35,6 +36,15 @@ struct Nodes {
   Vec3 v(Index n) const { return Vec3::load(&velocity[3 * static_cast<std::size_t>(n)]); }
   Vec3 f(Index n) const { return Vec3::load(&force[3 * static_cast<std::size_t>(n)]); }
   Vec3 x0(Index n) const { return Vec3::load(&reference[3 * static_cast<std::size_t>(n)]); }
+
+  void archive(Archive& a) {
+    a("nodes.position", position);
+    a("nodes.velocity", velocity);
+    a("nodes.force", force);
+    a("nodes.mass", mass);
+    a("nodes.fixed", fixed);
+    a("nodes.body", body);
+  }
 
   /// Appends a copy of `mother` (all but its mass, which the caller divides) here and to `coordinates`, which
   /// `reference` shows, and returns its number.

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "cdfp/error.hpp"
+#include "core/numbered.hpp"
 #include "topology/facet_match.hpp"
 #include "topology/star.hpp"
 #include "topology/store.hpp"
@@ -11,7 +12,7 @@ namespace cdfp {
 namespace {
 
 std::string describe(Packed use) {
-  return "facet " + std::to_string(local_of(use)) + " of element " + std::to_string(element_of(use));
+  return "facet " + numbered(local_of(use)) + " of element " + numbered(element_of(use));
 }
 
 /// A facet on its way to its mate: it waits in the bucket of its lowest node.
@@ -89,7 +90,7 @@ void TopologyStore::copy_elements(std::span<const ElementType> types, std::span<
   for (std::size_t e = 0; e < types.size(); ++e) {
     const auto type = static_cast<std::size_t>(types[e]);
     if (type >= kBulkTypes) {
-      throw Error(Status::bad_mesh, "element " + std::to_string(e) +
+      throw Error(Status::bad_mesh, "element " + numbered(e) +
                                         " is not of a bulk type; cohesive elements are inserted later, by "
                                         "insert_cohesive");
     }
@@ -120,13 +121,14 @@ void TopologyStore::copy_elements(std::span<const ElementType> types, std::span<
     for (std::size_t c = 0; c < count; ++c) {
       const Index node = next[c];
       if (node < 0 || node >= node_count) {
-        throw Error(Status::bad_mesh, "corner " + std::to_string(c) + " of element " + std::to_string(e) +
-                                          " names node " + std::to_string(node) + "; the mesh has " +
-                                          std::to_string(node_count) + " nodes, numbered from 0");
+        throw Error(Status::bad_mesh, "corner " + numbered(c) + " of element " + numbered(e) +
+                                          " names node " + numbered(node) + "; the mesh has " +
+                                          std::to_string(node_count) + " nodes, numbered from " +
+                                          numbered(0));
       }
       for (std::size_t d = 0; d < c; ++d) {
         if (next[d] != node) continue;
-        throw Error(Status::bad_mesh, "element " + std::to_string(e) + " names node " + std::to_string(node) +
+        throw Error(Status::bad_mesh, "element " + numbered(e) + " names node " + numbered(node) +
                                           " twice; use an element type with fewer corners");
       }
       record[c] = node;

@@ -4,32 +4,33 @@
 #include <string>
 
 #include "cdfp/error.hpp"
+#include "core/numbered.hpp"
 #include "topology/star.hpp"
 
 namespace cdfp {
 namespace {
 
 [[noreturn]] void refuse(FacetUse use, const std::string& why) {
-  throw Error(Status::bad_argument, "no cohesive element can be inserted at facet " +
-                                        std::to_string(use.facet) + " of element " +
-                                        std::to_string(use.element) + ": " + why);
+  throw Error(Status::bad_argument, "no cohesive element can be inserted at facet " + numbered(use.facet) +
+                                        " of element " + numbered(use.element) + ": " + why);
 }
 
 FacetUse checked_mate(const TopologyStore& store, FacetUse use) {
   const Index count = store.element_count();
   if (use.element < 0 || use.element >= count) {
-    refuse(use, "there are " + std::to_string(count) + " elements, numbered from 0");
+    refuse(use, "there are " + std::to_string(count) + " elements, numbered from " + numbered(0));
   }
   if (store.is_cohesive(use.element))
     refuse(use, "the element is cohesive itself; name a facet of a bulk element");
   const ElementView element = store.view(use.element);
   if (use.facet < 0 || use.facet >= element.shape->facet_count) {
-    refuse(use, "the element has " + std::to_string(element.shape->facet_count) + " facets, numbered from 0");
+    refuse(use, "the element has " + std::to_string(element.shape->facet_count) + " facets, numbered from " +
+                    numbered(0));
   }
   const Packed mate = element.mates[use.facet];
   if (mate == kNone) refuse(use, "it lies on the boundary; only inner facets can open");
   if (store.is_cohesive(element_of(mate))) {
-    refuse(use, "the facet is cohesive already, by element " + std::to_string(element_of(mate)));
+    refuse(use, "the facet is cohesive already, by element " + numbered(element_of(mate)));
   }
   if (count >= kMaxElements) refuse(use, "the topology holds as many elements as it can number");
   return {element_of(mate), local_of(mate)};

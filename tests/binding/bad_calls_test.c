@@ -205,6 +205,45 @@ static void simulations(void) {
   DONE(cdfp_simulation_free(&simulation));
 }
 
+static void saved_runs(void) {
+  const char* path = "bad_calls_restart";
+  cdfp_simulation *first = NULL, *second = NULL;
+  cdfp_recorder* recorder = NULL;
+  const double *x = NULL, *y = NULL;
+  int64_t nodes = 0, steps = 0;
+  cdfp_model* model = two_cubes();
+
+  REFUSED(cdfp_simulation_save(NULL, path), CDFP_BAD_ARGUMENT, "the simulation is null");
+  DONE(cdfp_simulation_create(model, &first));
+  DONE(cdfp_simulation_advance(first, 5, NULL));
+  REFUSED(cdfp_simulation_save(first, NULL), CDFP_BAD_ARGUMENT, "'path' is null");
+  REFUSED(cdfp_simulation_save(first, "no such folder/file"), CDFP_IO, "cannot write");
+  DONE(cdfp_simulation_save(first, path));
+  REFUSED(cdfp_simulation_restore(first, path), CDFP_BAD_STATE, "5 steps");
+  DONE(cdfp_simulation_create(model, &second));
+  REFUSED(cdfp_simulation_restore(second, NULL), CDFP_BAD_ARGUMENT, "'path' is null");
+  REFUSED(cdfp_simulation_restore(second, "no such file"), CDFP_IO, "cannot read the restart file");
+  DONE(cdfp_simulation_restore(second, path));
+  DONE(cdfp_simulation_step_count(second, &steps));
+  CHECK(steps == 5);
+  DONE(cdfp_simulation_advance(first, 5, NULL));
+  DONE(cdfp_simulation_advance(second, 5, NULL));
+  DONE(cdfp_simulation_positions(first, &x, &nodes));
+  DONE(cdfp_simulation_positions(second, &y, &nodes));
+  for (int i = 0; i < 3 * nodes; ++i) CHECK(x[i] == y[i]);
+  DONE(cdfp_simulation_free(&second));
+
+  const double g[3] = {1, 0, 0};
+  DONE(cdfp_model_set_gravity(model, g));
+  DONE(cdfp_simulation_create(model, &second));
+  REFUSED(cdfp_simulation_restore(second, path), CDFP_BAD_INPUT, "whose gravity is not as in this one");
+  REFUSED(cdfp_recorder_continue(second, "", &recorder), CDFP_BAD_ARGUMENT, "'folder' is empty");
+  remove(path);
+  DONE(cdfp_model_free(&model));
+  DONE(cdfp_simulation_free(&first));
+  DONE(cdfp_simulation_free(&second));
+}
+
 /* A step far beyond the stable one: the run is lost, the state stays readable, other runs go on. */
 static void lost_run(void) {
   cdfp_simulation *lost = NULL, *other = NULL;
@@ -583,6 +622,7 @@ int main(void) {
   meshes();
   topologies();
   simulations();
+  saved_runs();
   lost_run();
   cohesive_points();
   cohesive_elements();

@@ -197,14 +197,14 @@ contains
     call model%add_part('x', 'glass', formulation=9_int32, stat=stat, errmsg=message)
     call check_refused(CDFP_BAD_ARGUMENT, 'formulation is 9')
     call model%add_symmetry_plane(0, 0.0_dp, stat, message)
-    call check_refused(CDFP_BAD_ARGUMENT, 'no axis -1')
+    call check_refused(CDFP_BAD_ARGUMENT, 'no axis 0')
     call model%add_prescribed_velocity('bottom', [.true., .true., .true.], values=[1.0_dp], &
                                        times=[0.0_dp, 1.0_dp], stat=stat, errmsg=message)
     call check_refused(CDFP_BAD_ARGUMENT, 'one value for each time')
 
     call model%add_node_set('numbers from 0', [0_int32])
     call sim%create(model, stat, message)
-    call check_refused(CDFP_BAD_MESH, 'numbers from 0')
+    call check_refused(CDFP_BAD_MESH, 'node 0 does not exist (nodes are numbered 1 to 12)')
 
     call define(model)
     call sim%create(model, stat, message)
@@ -212,15 +212,15 @@ contains
     call sim%first_crack('cubes', seconds, layer, position, stat, message)
     call check_refused(CDFP_BAD_ARGUMENT, 'that may crack')
     call check(len(sim%warning(5, stat, message)) == 0, 'no text of a warning that is not there')
-    call check_refused(CDFP_BAD_ARGUMENT, 'no warning 4')
+    call check_refused(CDFP_BAD_ARGUMENT, 'no warning 5')
 
     call tops%create(12, hexahedra(:4, :), stat, message)
     call check_refused(CDFP_BAD_ARGUMENT, 'must be of shape (8, elements)')
     call tops%create(12, hexahedra)
     call tops%get_mate(3_int32, 1_int32, mate(1), mate(2), stat, message)
-    call check_refused(CDFP_BAD_ARGUMENT, 'no element 2')
+    call check_refused(CDFP_BAD_ARGUMENT, 'no element 3')
     call tops%get_nodes(0_int32, nodes, stat, message)
-    call check_refused(CDFP_BAD_ARGUMENT, 'no element -1')
+    call check_refused(CDFP_BAD_ARGUMENT, 'no element 0')
     call check(.not. allocated(nodes), 'nothing comes of a refused call')
   end subroutine
 
@@ -279,7 +279,8 @@ contains
     integer :: done
     integer(int32) :: element
     integer(int64) :: calls
-    character(len=:), allocatable :: stage
+    character(len=:), allocatable :: stage, name
+    type(cdfp_contact_pair) :: between
     real(dp) :: t
 
     call define(model)
@@ -320,8 +321,11 @@ contains
     call check(sim%step_count() == told%steps .and. told%elements == 2 .and. told%threads == 1, 'summary')
     call sim%get_stage(sim%stage_count(), stage, t, calls)
     call check(stage == 'accelerate' .and. calls == told%steps .and. t > 0, 'the last stage of the step')
+    call check(sim%contact_pair_count() == 0, 'nothing has touched')
+    call sim%get_contact_pair(1, stage, name, between, stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'no contact pair 1')
     call sim%get_stage(0, stage, t, calls, stat, message)
-    call check_refused(CDFP_BAD_ARGUMENT, 'no stage -1')
+    call check_refused(CDFP_BAD_ARGUMENT, 'no stage 0')
     history => sim%history()
     call check(sim%history_column(1) == 'time_s' .and. size(history, 2) > 2, 'history')
     call check(same_bits(history(:1, size(history, 2):), reshape([sim%time()], [1, 1])), 'its last row')
@@ -387,7 +391,7 @@ contains
     call cohesive%find_open(tops, coordinates, stress, facets, tractions, stat=stat, errmsg=message)
     call check_refused(CDFP_BAD_STATE, 'call cdfp_cohesive_set_parts first')
     call cohesive%set_parts(tops, coordinates, [1_int32, 2_int32], law_of_part=[number], stat=stat, errmsg=message)
-    call check_refused(CDFP_BAD_ARGUMENT, 'element 1 is of part 1')
+    call check_refused(CDFP_BAD_ARGUMENT, 'element 2 is of part 2')
     call cohesive%set_parts(tops, coordinates, parts, law_of_part=[number])
     stress = 0
     stress(3, :) = 61e6_dp
@@ -405,7 +409,7 @@ contains
     call check_refused(CDFP_BAD_ARGUMENT, 'add_force: x, v and f must be of shape (3, nodes)')
     x(2, 9) = ieee_nan()
     call cohesive%add_force(x, v, mass, f, 1e-6_dp, 0.0_dp, stat=stat, errmsg=message)
-    call check_refused(CDFP_BAD_ARGUMENT, 'node 8 of a cohesive element')
+    call check_refused(CDFP_BAD_ARGUMENT, 'node 9 of a cohesive element')
     x(2, 9) = 0
     f(3, 9:12) = 15e6_dp
     f(3, 5:8) = -15e6_dp
@@ -513,17 +517,24 @@ contains
     call check(stored > 0 .and. deepest > 0.9e-3_dp, 'energies')
     added = contact%stiffness_over_mass()
     call check(added > 0, 'springs bound the step')
+    call contact%remove_elements([2_int32])
+    call contact%local_search(x)
+    call contact%get_touches(touches)
+    call check(size(touches) == 0, 'nothing touches an element that is no more')
+    call contact%remove_elements([0_int32], stat, message)
+    call check_refused(CDFP_BAD_ARGUMENT, 'cannot leave the surface')
     v(1, 5) = ieee_nan()
     call contact%search(x, v, 1e-6_dp, stat=stat, errmsg=message)
-    call check_refused(CDFP_BAD_ARGUMENT, 'velocity of node 4 is not finite')
+    call check_refused(CDFP_BAD_ARGUMENT, 'velocity of node 5 is not finite')
   end subroutine
 
   subroutine state_between_steps()
     type(cdfp_model) :: model
-    type(cdfp_simulation) :: sim
+    type(cdfp_simulation) :: sim, again, same
     type(cdfp_energies) :: energy
     real(dp), pointer :: view(:, :)
     real(dp), allocatable :: v(:, :)
+    integer :: unit
     real(dp) :: stress(6, 2)
 
     call define(model)
@@ -548,6 +559,20 @@ contains
     call sim%set_positions(v)
     call sim%get_stresses(stress)
     call check(all(abs(stress(3, :) - 1e-5_dp*74e9_dp*0.8_dp/(1.2_dp*0.6_dp)) < 1e3_dp), 'stretched')
+    call sim%save('door_test_restart')
+    call again%create(model)
+    call again%restore('door_test_restart')
+    call sim%advance(4)
+    call again%advance(4)
+    call check(again%step_count() == sim%step_count(), 'steps of the run that went on')
+    call check(same_bits(again%positions(), sim%positions()), 'the same bits')
+    call again%restore('door_test_restart', stat, message)
+    call check_refused(CDFP_BAD_STATE, '9 steps')
+    call same%create(model)
+    call same%restore('no such file', stat, message)
+    call check_refused(CDFP_IO, 'cannot read the restart file')
+    open (newunit=unit, file='door_test_restart')
+    close (unit, status='delete')
     call sim%get_stresses(stress(:, :1), stat, message)
     call check_refused(CDFP_BAD_ARGUMENT, 'the simulation has 2')
   end subroutine

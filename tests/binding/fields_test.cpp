@@ -261,9 +261,11 @@ TEST_F(Fields, Settings) {
     EXPECT_EQ((Vector{end, fixed_step, step_factor}), (Vector{6, 7, 8}));
   }
   {
-    const auto& [snapshot_times, history_interval] = output;  // the caller's loop has its own times
+    const auto& [snapshot_times, history_interval, restart_interval] =
+        output;  // the caller's loop has its own times
     EXPECT_TRUE(snapshot_times.empty());
     EXPECT_EQ(history_interval, 9);
+    EXPECT_EQ(restart_interval, 0);
   }
 }
 
@@ -372,6 +374,24 @@ TEST_F(Fields, Results) {
     EXPECT_EQ(c.impactor_rebound_mps, s.impactor_rebound_mps);
     EXPECT_EQ(c.deepest_penetration_m, s.deepest_penetration_m);
     EXPECT_GT(c.deepest_penetration_m, 0);
+  }
+  {
+    int64_t count = 0, length = 0;
+    ASSERT_EQ(cdfp_simulation_contact_pair_count(simulation, &count), CDFP_OK);
+    const std::vector<Summary::ContactPair> pairs = native->summary().contact_pairs;
+    ASSERT_EQ(count, 1);
+    ASSERT_EQ(pairs.size(), 1u);
+    const auto [parts, peak, stored, heat, deepest] = pairs[0];
+    cdfp_contact_pair c;
+    ASSERT_EQ(cdfp_simulation_contact_pair(simulation, 0, &c), CDFP_OK);
+    EXPECT_EQ((std::vector{c.peak_force_n, c.stored_j, c.friction_heat_j, c.deepest_penetration_m}),
+              (std::vector{peak, stored, heat, deepest}));
+    EXPECT_GT(c.peak_force_n, 0);
+    for (const int side : {0, 1}) {
+      char name[32];
+      ASSERT_EQ(cdfp_simulation_contact_pair_part(simulation, 0, side, name, sizeof name, &length), CDFP_OK);
+      EXPECT_EQ(name, parts[std::size_t(side)]);
+    }
   }
   {
     double time = 0, position[3];

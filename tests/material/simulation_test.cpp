@@ -138,6 +138,38 @@ TEST(UserMaterialSimulation, TornBarInOutput) {
   EXPECT_NE(contents(folder + "/results.h5").find("state_4"), std::string::npos);
 }
 
+/// State variables, what has been deleted and the hidden memory of the law's host are in a saved run.
+TEST(UserMaterialSimulation, GoesOnFromAFileInTheMiddleOfTearing) {
+  VumatCase c{"tests/material/vumat/newer.f", {200e9, 0.3, 500e6}, 4};
+  c.deletion_state = 0;
+  c.density = 7850;
+  for (const Formulation formulation : {Formulation::one_point, Formulation::full}) {
+    Model model;
+    scenes::add_box(model.mesh, "bar", {10, 2, 1}, {0.1, 0.02, 0.01});
+    Part part;
+    part.name = "bar";
+    part.material = "brittle";
+    part.formulation = formulation;
+    model.parts = {part};
+    model.materials = {{"brittle", vumat_material(c)}};
+    model.prescribed_velocities = {{"bar_low_x", {true, false, false}, {}, {-10}},
+                                   {"bar_high_x", {true, false, false}, {}, {10}}};
+    model.time.end = 4e-5;
+    model.threads = 1;
+    Simulation whole(model), rest(model);
+    while (whole.summary().deleted.empty()) whole.step();
+    const std::string file = scratch_folder() + "/tearing.cdfp";
+    whole.save(file);
+    rest.restore(file);
+    whole.advance(100000);
+    rest.advance(100000);
+    EXPECT_TRUE(rest.history().values == whole.history().values);
+    const Frame f = whole.frame(), g = rest.frame();
+    ASSERT_EQ(f.fields.size(), g.fields.size());
+    for (std::size_t i = 0; i < f.fields.size(); ++i) EXPECT_TRUE(f.fields[i].values == g.fields[i].values) << i;
+  }
+}
+
 /// A plate of elastic VUMAT that is torn cracks where and when the built-in law lets it.
 TEST(UserMaterialSimulation, CracksAsTheBuiltInLaw) {
   std::vector<Index> counts;

@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <random>
+#include <set>
 
 #include "cdfp/error.hpp"
 #include "cdfp/laminated_plate.hpp"
@@ -172,6 +175,81 @@ TEST_P(Cracking, FacesThatComeFreeStayQuietAndAreFoundAsByARegularSearch) {
   EXPECT_LT(left, 0.0);
   EXPECT_NEAR(left, -right, 1e-12 * right);
   EXPECT_NEAR(contact.deepest_penetration(), 3 * 6e-8 * 2, 1e-12);
+}
+/// Pairs of living nodes and faces by name: (node, four corners).
+std::set<std::array<Index, 5>> living_pairs(const SurfaceContact& contact, const std::set<Index>& living) {
+  std::set<std::array<Index, 5>> pairs;
+  for (Index row = 0; row < contact.node_count(); ++row) {
+    const Index node = contact.nodes()[row];
+    if (!living.contains(node)) continue;
+    contact.search().node_segments().for_each(row, [&](Index segment) {
+      const Index* c = &contact.segments()[4 * static_cast<std::size_t>(segment)];
+      if (c[1] != c[2]) pairs.insert({node, c[0], c[1], c[2], c[3]});
+    });
+  }
+  return pairs;
+}
+
+/// Bricks are taken out of a block in any order: what is left has the pairs of a block that never had them,
+/// and the nodes of what was taken out touch nothing wherever they go.
+TEST_P(Cracking, BricksThatAreTakenOutLeaveThePairsOfTheRest) {
+  std::mt19937 random(GetParam());
+  RecordProperty("seed", static_cast<int>(GetParam()));
+  const Model model = block(4);
+  const Topology topology(model.mesh.node_count(), model.mesh.types, model.mesh.connectivity);
+  const std::vector<double> bulk{40e9};
+  const SurfaceContact::FacetSource source{topology, model.mesh.coordinates, model.mesh.parts, bulk};
+  Nodes nodes = nodes_of(model);
+  std::vector<Index> order(topology.bulk_count());
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), random);
+  std::vector<bool> gone(order.size(), false);
+  const auto is_free = [&](FacetUse use) {
+    const Index mate = topology.mate(use).element;
+    return !gone[use.element] && (mate == kNone || gone[mate]);
+  };
+  SurfaceContact contact(model.contact);
+  contact.add_facets(source, model.mesh.facet_sets[0].facets);
+  const SurfaceContact::Arrays arrays{nodes.position, nodes.velocity, nodes.mass, {}, nodes.force};
+  for (std::size_t at = 0; at + 4 < order.size(); ++at) {
+    const SurfaceContact::Search due = contact.due(arrays, 6e-8);
+    if (due == SurfaceContact::Search::regular) contact.regular_search(arrays);
+    if (due == SurfaceContact::Search::adaptive) contact.adaptive_search(arrays);
+    contact.local_search(arrays);
+    contact.add_force(arrays, 6e-8);
+    ASSERT_EQ(contact.touching_count(), 0u) << at;
+
+    SurfaceContact afresh(model.contact);
+    std::set<Index> living;
+    for (Index e = 0; e < topology.bulk_count(); ++e) {
+      for (Index f = 0; f < 6; ++f) {
+        if (!is_free({e, f})) continue;
+        afresh.add_facets(source, std::array{FacetUse{e, f}});
+        const FacetNodes corners = topology.facet_nodes({e, f});
+        living.insert(corners.nodes.begin(), corners.nodes.end());
+      }
+    }
+    ASSERT_EQ(contact.segment_count() - contact.removed_count(), afresh.segment_count()) << at;
+    afresh.regular_search(arrays);
+    ASSERT_EQ(living_pairs(contact, living), living_pairs(afresh, living)) << at;
+
+    // A lost node in the middle of a brick that is left would be deep inside.
+    for (Index n = 0; n < nodes.count(); ++n) {
+      const bool lost = std::none_of(order.begin(), order.end(), [&](Index e) {
+        const auto corners = topology.nodes(e);
+        return !gone[e] && std::find(corners.begin(), corners.end(), n) != corners.end();
+      });
+      if (lost) std::copy_n(std::array{1.5e-3, 1.5e-3, 2.95e-3}.begin(), 3, &nodes.position[3 * n]);
+    }
+    const Index e = order[at];
+    gone[e] = true;
+    contact.remove_element(e);
+    for (Index f = 0; f < 6; ++f) {
+      const FacetUse mate = topology.mate({e, f});
+      if (mate.element != kNone && !gone[mate.element]) contact.add_facets(source, std::array{mate});
+    }
+  }
+  EXPECT_GT(contact.removed_count(), 100);
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, Cracking, testing::Range(1u, 6u));
 

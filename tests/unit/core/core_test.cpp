@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "core/numbered.hpp"
 #include "core/parallel.hpp"
 #include "core/stress.hpp"
 #include "core/vec3.hpp"
@@ -46,6 +47,16 @@ TEST(Threads, EveryIndexOnce) {
     });
     for (const int s : seen) ASSERT_EQ(s, 1);
   }
+}
+
+TEST(Numbered, MessagesCountFromWhereTheirReaderDoes) {
+  const Error error(Status::bad_mesh, "element " + numbered(9) + " has 8 corners and is of part " +
+                                          numbered(-1) + "; give one of " + numbered(0) + "-" + numbered(3));
+  EXPECT_STREQ(error.what(), "element 9 has 8 corners and is of part -1; give one of 0-3");
+  EXPECT_EQ(error.counted_from(0), error.what());
+  const Error copy = error;
+  EXPECT_EQ(copy.counted_from(1), "element 10 has 8 corners and is of part 0; give one of 1-4");
+  EXPECT_EQ(Error(Status::io, "").counted_from(1), "");
 }
 
 }  // namespace

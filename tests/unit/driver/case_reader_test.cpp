@@ -94,6 +94,7 @@ fixed_step = 6e-8
 [output]
 snapshot_times = [33e-6, 120e-6]
 history_interval = 10
+restart_interval = 400
 )";
 
 std::string with(const std::string& from, const std::string& to) {
@@ -164,6 +165,7 @@ TEST(CaseReader, ReadsEverySection) {
   EXPECT_EQ(m.time.fixed_step, 6e-8);
   EXPECT_EQ(m.output.snapshot_times, (std::vector{33e-6, 120e-6}));
   EXPECT_EQ(m.output.history_interval, 10);
+  EXPECT_EQ(m.output.restart_interval, 400);
   EXPECT_NO_THROW(check_model(m));
 }
 
@@ -248,6 +250,8 @@ TEST(CaseReader, NamesValuesOutOfRangeWithPlace) {
   expect_refused(with("columns = 4", "columns = 1"),
                  "'columns' is 1; it must be at least 2 and at most 2000");
   expect_refused(with("columns = 4", "columns = 99999999999"), "'columns' is 1e+11");
+  expect_refused(with("restart_interval = 400", "restart_interval = -1"),
+                 "'restart_interval' is -1; it must be 0 or more");
   expect_refused(with("[33e-6, 120e-6]", "[33e-6, -1]"), "'snapshot_times' is -1; it must be 0 or more");
   expect_refused(with("values = [0.0]", "values = [0.0, 1.0]"),
                  "'values' must have as many entries as 'times'");

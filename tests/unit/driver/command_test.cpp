@@ -137,6 +137,48 @@ TEST_F(Command, BuildsMaterials) {
   EXPECT_EQ(run({"build-material"}), 2);
 }
 
+/// A run in two pieces leaves the files of the whole one.
+TEST_F(Command, GoesOnWithARunThatWasStopped) {
+  const std::vector<std::pair<std::string, std::string>> quick{
+      {"columns = 25", "columns = 11"},
+      {"snapshot_times = [20e-6, 33e-6, 80e-6]", "snapshot_times = [12e-6, 24e-6, 30e-6]"},
+      {"history_interval = 20", "history_interval = 20\nrestart_interval = 150"}};
+  const auto ends_at = [&](const std::string& end) {
+    std::vector<std::pair<std::string, std::string>> changes = quick;
+    changes.emplace_back("end = 80e-6", "end = " + end);
+    return case_with(changes);
+  };
+  const fs::path whole = folder_ / "whole", pieces = folder_ / "pieces";
+  ASSERT_EQ(run({"run", ends_at("36e-6"), "--out", whole, "--threads", "1"}), 0) << err();
+  ASSERT_EQ(run({"run", ends_at("24e-6"), "--out", pieces, "--threads", "1"}), 0) << err();
+  const fs::path saved = folder_ / "saved";
+  fs::copy(pieces / "restart.cdfp", saved);
+  // It had gone on a little and was lost.
+  ASSERT_EQ(
+      run({"run", ends_at("30e-6"), "--out", pieces, "--threads", "2", "--restart", pieces / "restart.cdfp"}),
+      0)
+      << err();
+  ASSERT_EQ(run({"run", ends_at("36e-6"), "--out", pieces, "--threads", "2", "--restart", saved}), 0)
+      << err();
+  EXPECT_NE(contents(whole / "history.csv").size(), 0u);
+  std::size_t compared = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(whole)) {
+    const std::string name = fs::relative(entry.path(), whole).string();
+    if (!entry.is_regular_file() || name == "summary.json" || name == "restart.cdfp") continue;
+    if (name == "results.h5") continue;  // HDF5 keeps the time of day
+    EXPECT_TRUE(contents(entry.path()) == contents(pieces / name)) << name;
+    ++compared;
+  }
+  EXPECT_GE(compared, 10u);
+  EXPECT_EQ(std::distance(fs::directory_iterator(pieces / "snapshots"), fs::directory_iterator{}),
+            std::distance(fs::directory_iterator(whole / "snapshots"), fs::directory_iterator{}));
+
+  EXPECT_EQ(run({"run", case_with({}), "--out", pieces, "--restart", saved}), 1);
+  EXPECT_NE(err().find("saved by another model, whose mesh is not as in this one"), std::string::npos)
+      << err();
+  EXPECT_TRUE(fs::exists(pieces / "history.csv")) << "a run that cannot go on leaves what there is";
+}
+
 TEST_F(Command, EndsCleanlyWhenInterrupted) {
   const fs::path results = folder_ / "results";
   const fs::path path = case_with({{"end = 80e-6", "end = 1.0"},
