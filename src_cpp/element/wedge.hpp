@@ -10,7 +10,8 @@
 /// and has no shear, so that one layer bends as a plate does and near incompressibility adds no constraint;
 /// the law sees it at two points, at 1 / sqrt 3 of half the height. The other two modes are elastic: torsion
 /// about the height as of an equilateral bar (Saint-Venant: 0.6 of the polar moment) and bending along the
-/// height with Young's modulus. Within a layer the strain is constant, as in any linear triangle. Since the
+/// height with Young's modulus. Within a layer the strain is constant, as in any linear triangle, so
+/// that a plate's triangles should be no longer than it is thick: shear stiffens longer ones. Since the
 /// mean gradient is exact, the element passes the patch test in any shape; forces are minus the exact
 /// derivative of W.
 ///

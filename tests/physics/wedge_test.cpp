@@ -1,12 +1,15 @@
 // Wedges in whole simulations: bodies that spin and ring, cracks along facets of either shape, rigid parts.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <random>
 
 #include "cdfp/simulation.hpp"
 #include "core/vec3.hpp"
+#include "mesh/element_shapes.hpp"
 #include "scenes.hpp"
 
 namespace cdfp {
@@ -136,6 +139,65 @@ TEST(Wedges, FreeBodySpinsAndRingsWithoutLoss) {
   EXPECT_LT(most / least - 1, 5e-3);
   EXPECT_NEAR(s.summary().energy_balance_min, 1, 5e-3);
   EXPECT_NEAR(s.summary().energy_balance_max, 1, 5e-3);
+}
+
+/// Facets that no other element has.
+FacetSet outside(const Mesh& mesh) {
+  std::map<std::vector<Index>, std::vector<FacetUse>> uses;
+  std::size_t first = 0;
+  for (Index e = 0; e < mesh.element_count(); ++e) {
+    const ElementShape& shape = *bulk_shape(mesh.types[static_cast<std::size_t>(e)]);
+    for (std::size_t f = 0; f < shape.facets.size(); ++f) {
+      std::vector<Index> nodes;
+      for (const Index c : shape.facets[f]) {
+        if (c != kNone) nodes.push_back(mesh.connectivity[first + static_cast<std::size_t>(c)]);
+      }
+      std::sort(nodes.begin(), nodes.end());
+      uses[nodes].push_back({e, static_cast<Index>(f)});
+    }
+    first += static_cast<std::size_t>(shape.corners);
+  }
+  FacetSet faces{"outside", {}};
+  for (const auto& [nodes, of] : uses) {
+    if (of.size() == 1) faces.facets.push_back(of[0]);
+  }
+  return faces;
+}
+
+TEST(Wedges, BarsThatMeetInTrianglesAndQuadrilateralsSwapVelocities) {
+  Model model;
+  const double h = 1e-3;
+  Mesh right;
+  scenes::add_box(model.mesh, "left", {40, 2, 2}, {40 * h, 2 * h, 2 * h});
+  scenes::add_box(right, "right", {40, 2, 2}, {40 * h, 2 * h, 2 * h}, {40 * h + 1e-6, 0, 0});
+  cut_into_wedges(model.mesh, 0);
+  cut_into_wedges(right, 2);
+  const Index half = model.mesh.node_count();
+  Mesh& mesh = model.mesh;
+  mesh.coordinates.insert(mesh.coordinates.end(), right.coordinates.begin(), right.coordinates.end());
+  for (const Index n : right.connectivity) mesh.connectivity.push_back(half + n);
+  mesh.types.insert(mesh.types.end(), right.types.begin(), right.types.end());
+  mesh.parts.insert(mesh.parts.end(), right.parts.size(), 1);
+  mesh.part_names.emplace_back("right");
+  mesh.facet_sets = {outside(mesh)};
+  const ElasticMaterial bar{2456, 74e9, 0};
+  model = scenes::with_part(std::move(model), "left", bar);
+  model = scenes::with_part(std::move(model), "right", bar);
+  model.initial_velocities = {{"left", {3, 0, 0}, {}}};
+  model.contact.surfaces = {"outside"};
+  model.time = {40e-6, 0, 0.8};
+  Simulation s(std::move(model));
+  s.advance(1000000);
+  double sum[2] = {0, 0}, mass = 0;
+  for (std::size_t n = 0; n < s.masses().size(); ++n) {
+    sum[static_cast<Index>(n) < half ? 0 : 1] += s.masses()[n] * s.velocities()[3 * n];
+    mass += s.masses()[n] / 2;
+  }
+  EXPECT_NEAR((sum[0] + sum[1]) / mass, 3, 1e-11);
+  EXPECT_NEAR(sum[0] / mass, 0, 0.03 * 3);
+  EXPECT_NEAR(sum[1] / mass, 3, 0.03 * 3);
+  EXPECT_NEAR(s.summary().energy_balance_min, 1, 0.01);
+  EXPECT_NEAR(s.summary().energy_balance_max, 1, 0.01);
 }
 
 /// Half a turn of a rigid box of 4 x 2 x 1 mm about a slant axis, beside a free one of glass.
