@@ -45,6 +45,7 @@ BENCHMARK_CAPTURE(internal_force, one_point_pvb, Shape::extruded, Formulation::o
 BENCHMARK_CAPTURE(internal_force, full_extruded, Shape::extruded, Formulation::full, false);
 BENCHMARK_CAPTURE(internal_force, full_distorted, Shape::distorted, Formulation::full, false);
 BENCHMARK_CAPTURE(internal_force, full_pvb, Shape::extruded, Formulation::full, true);
+BENCHMARK_CAPTURE(internal_force, wedges, Shape::wedges, Formulation::one_point, false);
 BENCHMARK_CAPTURE(internal_force, tetrahedra, Shape::tetrahedra, Formulation::one_point, false);
 
 void stable_step(benchmark::State& state) {

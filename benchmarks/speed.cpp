@@ -27,6 +27,7 @@
 #include "element/kernels.hpp"
 #include "element/one_point.hpp"
 #include "element/tetrahedron.hpp"
+#include "element/wedge.hpp"
 #include "integrator/central_difference.hpp"
 #include "material/elastic.hpp"
 #include "material/rate_dependent.hpp"
@@ -64,7 +65,9 @@ Work work_of_update() {
   Formulation::force(part, constants.data(), x, f, [&](const host::Symmetric<Counted>& strain, int point) {
     return Law::advance(part.material, step, strain, &state[std::size_t(point * Law::kState) * kLanes]);
   });
-  constexpr double kNodesAnElement = kCorners == 4 ? 1.25 / 6 : 1.25;  // of the plates below
+  constexpr double kNodesAnElement = 1.25 / (kCorners == 4   ? 6
+                                             : kCorners == 6 ? 2
+                                                             : 1);  // of the plates below
   const double assembly = 3 * kCorners;
   const double advance = kNodesAnElement * (6 + 6 + 1);
   const double constants_and_corners = 8.0 * Formulation::kConstants + 4 * kCorners;
@@ -206,6 +209,12 @@ std::vector<double> measure_elements(const std::vector<bench::Roofline>& machine
                            true,
                            work_of_update<FullIntegration<PrismPoints>, RateDependent>(),
                            {0, 0}},
+                          {"wedge",
+                           bench::Shape::wedges,
+                           Formulation::one_point,
+                           false,
+                           work_of_update<Wedge, Elastic>(),
+                           {0, 0}},
                           {"tetrahedron",
                            bench::Shape::tetrahedra,
                            Formulation::one_point,
@@ -222,7 +231,9 @@ std::vector<double> measure_elements(const std::vector<bench::Roofline>& machine
     for (const Index columns : {108, 188, 500}) {
       if (columns > 200 && !large) continue;
       const Model model = bench::plate(scene.shape, scene.formulation, scene.rate_dependent,
-                                       scene.shape == bench::Shape::tetrahedra ? columns * 2 / 5 : columns);
+                                       scene.shape == bench::Shape::tetrahedra ? columns * 2 / 5
+                                       : scene.shape == bench::Shape::wedges   ? columns * 5 / 7
+                                                                               : columns);
       const Index count = model.mesh.element_count();
       MovingPlate moving(model);
       const std::vector<int> counts = thread_counts();

@@ -119,7 +119,7 @@ contains
   end subroutine
 
   !> The same for any bulk elements: `types`: CDFP_TETRAHEDRON and the like; `connectivity`: the corners of all
-  !> elements one after the other.
+  !> elements one after the other. A simulation takes hexahedra, tetrahedra and wedges.
   subroutine set_mixed_mesh(this, coordinates, types, connectivity, parts, layers, stat, errmsg)
     class(cdfp_model), intent(in) :: this
     real(c_double), contiguous, intent(in) :: coordinates(:, :)

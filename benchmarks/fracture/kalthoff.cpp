@@ -15,7 +15,7 @@ using namespace cdfp;
 
 namespace {
 
-constexpr double kNotch = 50e-3, kH = 1e-3, kTetrahedra = 100e-3 / 64, kLow = -25e-3, kSide = 100e-3;
+constexpr double kNotch = 50e-3, kH = 1e-3, kIrregular = 100e-3 / 64, kLow = -25e-3, kSide = 100e-3;
 
 /// Upper half of the plate; the notch is at y = 0. The grid's inner nodes are shifted by up to `shift` of its
 /// spacing.
@@ -34,11 +34,12 @@ Mesh bricks(double shift) {
   return mesh_of(plate, {"plate"});
 }
 
-Mesh tetrahedra(unsigned seed) {
-  IrregularPlate plate{.h = kTetrahedra, .width = kSide, .height = kSide, .thickness = kTetrahedra};
+Mesh irregular(unsigned seed, bool wedges) {
+  IrregularPlate plate{.h = kIrregular, .width = kSide, .height = kSide, .thickness = kIrregular};
   plate.y0 = kLow;
   plate.notch = kNotch;
   plate.seed = seed;
+  plate.wedges = wedges;
   return mesh_of(plate, {"plate"});
 }
 
@@ -99,8 +100,10 @@ void kalthoff() {
     report("  energy balance", r.balance, 0.99, 1.01, "");
     return r.angle;
   };
-  report("  angle", show("tetrahedra", tetrahedra(1)), 60, 75, "deg");
-  report("  angle", show("other tetrahedra", tetrahedra(2)), 60, 75, "deg");
+  report("  angle", show("tetrahedra", irregular(1, false)), 60, 75, "deg");
+  report("  angle", show("other tetrahedra", irregular(2, false)), 60, 75, "deg");
+  report("  angle", show("wedges", irregular(1, true)), 60, 75, "deg");
+  report("  angle", show("other wedges", irregular(2, true)), 60, 75, "deg");
   note("  angle", show("regular bricks", bricks(0)), "deg");
   note("  angle", show("shifted bricks", bricks(0.25)), "deg");
   draw_cracks("kalthoff", panels, {0, kLow}, {105e-3, 80e-3});

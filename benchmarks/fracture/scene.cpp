@@ -5,8 +5,6 @@
 #include <numbers>
 #include <random>
 
-#include "mesh/triangulation.hpp"
-
 namespace bench {
 
 using namespace cdfp;
@@ -55,8 +53,6 @@ Mesh mesh_of(const Plate& p, const std::vector<std::string>& parts) {
   mesh.node_sets = {all, left, right, bottom, top};
   return mesh;
 }
-
-namespace {
 
 /// Corners first, then sides, the notch, and the inside: thrown at random, but kept apart.
 std::vector<PlanePoint> points_of(const IrregularPlate& p) {
@@ -108,7 +104,23 @@ std::vector<PlanePoint> points_of(const IrregularPlate& p) {
   return points;
 }
 
-}  // namespace
+void add_prism(Mesh& mesh, const std::array<Index, 6>& nodes, bool clockwise, bool wedge) {
+  const auto add = [&](ElementType type, std::initializer_list<std::size_t> corners) {
+    mesh.types.push_back(type);
+    mesh.parts.push_back(0);
+    for (const std::size_t c : corners) mesh.connectivity.push_back(nodes[c]);
+  };
+  const std::size_t b = clockwise ? 2 : 1, c = clockwise ? 1 : 2;
+  if (wedge) {
+    add(ElementType::wedge, {0, b, c, 3, 3 + b, 3 + c});
+    return;
+  }
+  // Sides split from the lesser point up.
+  for (const std::array<std::size_t, 4>& t :
+       {std::array<std::size_t, 4>{0, 1, 2, 5}, {0, 1, 5, 4}, {0, 4, 5, 3}}) {
+    add(ElementType::tetrahedron, {t[0], t[b], t[c], t[3]});
+  }
+}
 
 Mesh mesh_of(const IrregularPlate& p, const std::vector<std::string>& parts) {
   const std::vector<PlanePoint> points = points_of(p);
@@ -139,17 +151,12 @@ Mesh mesh_of(const IrregularPlate& p, const std::vector<std::string>& parts) {
     const bool clockwise =
         turn(points[static_cast<std::size_t>(t[0])], points[static_cast<std::size_t>(t[1])],
              points[static_cast<std::size_t>(t[2])]) < 0;
-    std::array<Index, 6> n{};  // three below, three over them; sides split from the lesser point up
+    std::array<Index, 6> n{};  // three below, three over them
     for (std::size_t c = 0; c < 3; ++c) {
       n[c] = number[static_cast<std::size_t>(t[c])][middle > 0 ? 1 : 0];
       n[c + 3] = n[c] + 1;
     }
-    for (std::array<int, 4> tet : {std::array{0, 1, 2, 5}, {0, 1, 5, 4}, {0, 4, 5, 3}}) {
-      if (clockwise) std::swap(tet[1], tet[2]);
-      mesh.types.push_back(ElementType::tetrahedron);
-      mesh.parts.push_back(0);
-      for (const int c : tet) mesh.connectivity.push_back(n[static_cast<std::size_t>(c)]);
-    }
+    add_prism(mesh, n, clockwise, p.wedges);
   }
   mesh.node_sets = {all, left, right, bottom, top};
   return mesh;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cdfp/model.hpp"
+#include "mesh/triangulation.hpp"
 
 namespace bench {
 
@@ -29,14 +30,21 @@ struct Plate {
 /// Node sets "all", "left", "right", "bottom", "top", in that order.
 cdfp::Mesh mesh_of(const Plate& p, const std::vector<std::string>& parts);
 
-/// Triangles between points that lie no regular way, about `h` apart, as prisms of three tetrahedra each.
+/// Triangles between points that lie no regular way, about `h` apart, each a wedge or three tetrahedra.
 struct IrregularPlate {
   double h = 1, width = 1, height = 1, thickness = 1;
   double y0 = 0;
   double notch = -1;  ///< nodes at y = 0 with x below this are doubled
   unsigned seed = 1;
+  bool wedges = false;
 };
 cdfp::Mesh mesh_of(const IrregularPlate& p, const std::vector<std::string>& parts);
+/// Its points, the four corners first.
+std::vector<cdfp::PlanePoint> points_of(const IrregularPlate& p);
+
+/// Adds the prism over a triangle: a wedge, or three tetrahedra whose sides match those of the neighbours.
+/// Nodes: three below, by ascending number of their points, then the three over them.
+void add_prism(cdfp::Mesh& mesh, const std::array<cdfp::Index, 6>& nodes, bool clockwise, bool wedge);
 
 /// Parts of a plate that cracks along y = 0 only: a row of bricks on either side, its columns by turns of two
 /// parts, between which no facet opens.

@@ -53,6 +53,18 @@ Model plate(Shape shape, Formulation formulation, bool rate_dependent, Index col
     elements *= 6;
     mesh.types.assign(elements, ElementType::tetrahedron);
   }
+  if (shape == Shape::wedges) {
+    static constexpr int kCut[2][6] = {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
+    std::vector<Index> cut;
+    for (std::size_t e = 0; e < elements; ++e) {
+      for (const auto& corners : kCut) {
+        for (const int c : corners) cut.push_back(mesh.connectivity[8 * e + std::size_t(c)]);
+      }
+    }
+    mesh.connectivity = std::move(cut);
+    elements *= 2;
+    mesh.types.assign(elements, ElementType::wedge);
+  }
   mesh.parts.assign(elements, 0);
   mesh.part_names = {"plate"};
   if (rate_dependent) {

@@ -137,7 +137,8 @@ int32_t cdfp_model_set_title(cdfp_model* model, const char* title);
 int32_t cdfp_model_set_mesh(cdfp_model* model, int64_t nodes, const double* coordinates, int64_t elements,
                             const int32_t* hexahedra, const int32_t* parts, const int32_t* layers);
 /** The same for any bulk elements: `types` (elements) of CDFP_HEXAHEDRON and the like; `corners`: how many
- *  numbers `connectivity` holds, the corners of all elements one after the other. */
+ *  numbers `connectivity` holds, the corners of all elements one after the other. A simulation takes
+ *  hexahedra, tetrahedra and wedges. */
 int32_t cdfp_model_set_mixed_mesh(cdfp_model* model, int64_t nodes, const double* coordinates,
                                   int64_t elements, const int32_t* types, int64_t corners,
                                   const int32_t* connectivity, const int32_t* parts, const int32_t* layers);

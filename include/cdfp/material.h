@@ -8,7 +8,8 @@
  * Stretch, stress and strain increment stand in the corotated axes: with F = R U and U symmetric, U is the
  * stretch, the law's stress is R^T sigma R of the Cauchy stress sigma, and the strain increment is the
  * symmetric part of dU U_mid^-1, second order in the step and zero in any rigid motion. In fully integrated
- * hexahedra F has the mean volumetric strain of the element.
+ * hexahedra F has the mean volumetric strain of the element, in wedges (two points over one another) it is
+ * that of the mean gradient with the bending strain added.
  *
  * What is to be written holds the old values (`stiffness`: 0) when the law is called.
  */

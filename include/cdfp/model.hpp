@@ -154,8 +154,8 @@ enum class StressRecovery {
 struct Part {
   std::string name;  ///< one of `Mesh::part_names`
   std::string material;
-  Formulation formulation = Formulation::one_point;
-  double hourglass = 1.0;    ///< share of the assumed-strain stiffness (one_point)
+  Formulation formulation = Formulation::one_point;  ///< of hexahedra
+  double hourglass = 1.0;    ///< share of the assumed-strain stiffness (one_point, wedges)
   std::string cohesive_law;  ///< extrinsic (linear, camacho_ortiz or user); empty: does not crack
 };
 

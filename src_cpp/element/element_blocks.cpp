@@ -12,6 +12,8 @@
 #include "element/one_point.hpp"
 #include "element/step_bound.hpp"
 #include "element/tetrahedron.hpp"
+#include "element/wedge.hpp"
+#include "element/wedge_geometry.hpp"
 
 namespace cdfp {
 
@@ -25,11 +27,15 @@ constexpr std::size_t kTasksWanted = 128;
 BlockKind kind_of(const PartPlan& plan, ElementType type, bool prism) {
   if (plan.user) {
     if (type == ElementType::tetrahedron) return BlockKind::tetrahedron_stored;
+    if (type == ElementType::wedge) return BlockKind::wedge_stored;
     if (plan.full) return prism ? BlockKind::full_prism_stored : BlockKind::full_stored;
     return prism ? BlockKind::prism_stored : BlockKind::hexahedron_stored;
   }
   if (type == ElementType::tetrahedron) {
     return plan.rate_dependent ? BlockKind::tetrahedron_rate_dependent : BlockKind::tetrahedron_elastic;
+  }
+  if (type == ElementType::wedge) {
+    return plan.rate_dependent ? BlockKind::wedge_rate_dependent : BlockKind::wedge_elastic;
   }
   if (plan.full && prism) {
     return plan.rate_dependent ? BlockKind::full_prism_rate_dependent : BlockKind::full_prism_elastic;
@@ -45,7 +51,8 @@ Eigen::Vector3d hourglass_constants(const HexahedronGeometry& geometry, double f
   return (factor * l.prod() / 3 * l.cwiseProduct(l).cwiseInverse()).cwiseSqrt();
 }
 
-/// `ofCorners`: Corners or TetrahedronCorners, from the element's first entry in the connectivity.
+/// `OfCorners`: Corners, TetrahedronCorners or WedgeCorners, from the element's first entry in the
+/// connectivity.
 template <class OfCorners>
 OfCorners corners_of(const Mesh& mesh, Index first) {
   OfCorners x;
@@ -136,19 +143,45 @@ void write_constants(BlockKind kind, const HexahedronGeometry& geometry, const E
   }
 }
 
+template <class Write>
+void write_constants(const WedgeGeometry& geometry, const WedgeStiffness& stiffness, Write&& write) {
+  using host::Wedge;
+  for (int k = 0; k < 15; ++k) write(k, geometry.b(k / 3, k % 3));
+  for (int k = 0; k < 6; ++k) write(Wedge::kMoments + k, geometry.moments(k / 3, k % 3));
+  for (int k = 0; k < 4; ++k) write(Wedge::kSlopes + k, geometry.slopes(k / 2, k % 2));
+  write(Wedge::kStiffness, stiffness.twist);
+  write(Wedge::kStiffness + 1, stiffness.warp);
+  write(Wedge::kPoisson, stiffness.poisson);
+  write(Wedge::kVolume, geometry.volume);
+}
+
+/// Highest squared frequency of a hexahedron or wedge.
+double exact_of(const BlockGroup& group, const Mesh& mesh, Index first) {
+  const PartConstants& part = group.plan.constants;
+  if (group.corners() == 6) {
+    const WedgeGeometry geometry = wedge_geometry(corners_of<WedgeCorners>(mesh, first));
+    return wedge_exact(geometry, part, wedge_stiffness(geometry, group.plan));
+  }
+  const HexahedronGeometry geometry = hexahedron_geometry(corners_of<Corners>(mesh, first));
+  if (group.plan.full) return full_exact(geometry, part, part.density);
+  return one_point_exact(geometry, part, hourglass_constants(geometry, group.plan.hourglass_factor),
+                         part.density);
+}
+
 /// Where each element's corners start in the connectivity.
 std::vector<Index> first_corners_of(const Mesh& mesh) {
   std::vector<Index> first{0};
   for (Index e = 0; e < mesh.element_count(); ++e) {
     const ElementType type = mesh.types[e];
-    if (type != ElementType::hexahedron && type != ElementType::tetrahedron) {
-      throw Error(
-          Status::bad_mesh,
-          "element " + numbered(e) +
-              " is neither a hexahedron nor a tetrahedron; only these have a stiffness, so mesh part '" +
-              mesh.part_names[mesh.parts[e]] + "' with them");
+    if (type != ElementType::hexahedron && type != ElementType::tetrahedron && type != ElementType::wedge) {
+      throw Error(Status::bad_mesh,
+                  "element " + numbered(e) +
+                      " is no hexahedron, tetrahedron or wedge; only these have a stiffness, so mesh part '" +
+                      mesh.part_names[mesh.parts[e]] + "' with them (a pyramid makes two tetrahedra)");
     }
-    first.push_back(first.back() + (type == ElementType::hexahedron ? 8 : 4));
+    first.push_back(first.back() + (type == ElementType::hexahedron ? 8
+                                    : type == ElementType::wedge    ? 6
+                                                                    : 4));
   }
   return first;
 }
@@ -161,6 +194,10 @@ Shape shape_of(const Mesh& mesh, ElementType type, Index first) {
   if (type == ElementType::tetrahedron) {
     const double volume = tetrahedron_geometry(corners_of<TetrahedronCorners>(mesh, first)).volume;
     return {volume, false, !(volume > 0)};
+  }
+  if (type == ElementType::wedge) {
+    const WedgeGeometry geometry = wedge_geometry(corners_of<WedgeCorners>(mesh, first));
+    return {geometry.volume, false, !(geometry.volume > 0 && geometry.least_jacobian > 0)};
   }
   const HexahedronGeometry geometry = hexahedron_geometry(corners_of<Corners>(mesh, first));
   return {geometry.volume, geometry.prism, !(geometry.volume > 0 && geometry.least_jacobian > 0)};
@@ -251,8 +288,10 @@ void ElementBlocks::start_user_law(BlockGroup& group, const Mesh& mesh) {
   for (const Index e : group.elements) {
     const double volume = corner_masses[e] * group.corners() / group.plan.constants.density;
     UserPoints::Element element{e, std::cbrt(volume), Mat3::identity()};
-    if (group.corners() == 8) {
-      const Eigen::Matrix3d frame = hexahedron_geometry(corners_of<Corners>(mesh, first_corner[e])).frame;
+    if (group.corners() != 4) {
+      const Eigen::Matrix3d frame =
+          group.corners() == 8 ? hexahedron_geometry(corners_of<Corners>(mesh, first_corner[e])).frame
+                               : wedge_geometry(corners_of<WedgeCorners>(mesh, first_corner[e])).frame;
       for (int i = 0; i < 9; ++i) element.axes(i / 3, i % 3) = frame(i / 3, i % 3);
     }
     elements.push_back(element);
@@ -298,6 +337,11 @@ void ElementBlocks::fill(BlockGroup& group, const Mesh& mesh, const Threads& thr
       for (int k = 0; k < 9; ++k) write(k, geometry.gradient(1 + k / 3, k % 3));
       write(host::Tetrahedron::kVolume, geometry.volume);
       terms = tetrahedron_terms(geometry, part, part.density);
+    } else if (group.corners() == 6) {
+      const WedgeGeometry geometry = wedge_geometry(corners_of<WedgeCorners>(mesh, first_corner[e]));
+      const WedgeStiffness stiffness = wedge_stiffness(geometry, group.plan);
+      write_constants(geometry, stiffness, write);
+      terms = wedge_terms(geometry, part, stiffness);
     } else {
       const HexahedronGeometry geometry = hexahedron_geometry(corners_of<Corners>(mesh, first_corner[e]));
       const Eigen::Vector3d g = hourglass_constants(geometry, group.plan.hourglass_factor);
@@ -330,7 +374,8 @@ void ElementBlocks::tighten_step_terms(const Mesh& mesh) {
       const std::size_t lane = slot % kLanes;
       const StepTerms terms{at[0].value[lane], at[1].value[lane], at[2].value[lane], at[3].value[lane]};
       highest = std::max(highest, std::max(terms.material, terms.hourglass));
-      if (terms.coupling > 0 && (group.plan.full || !group.plan.rate_dependent))
+      const bool follows = group.plan.full || group.corners() == 6;
+      if (terms.coupling > 0 && (follows || !group.plan.rate_dependent))
         candidates.push_back({terms.bound(), &group, slot});
     }
   }
@@ -338,14 +383,7 @@ void ElementBlocks::tighten_step_terms(const Mesh& mesh) {
                    [](const Candidate& a, const Candidate& b) { return a.bound > b.bound; });
   for (const auto& [bound, group, slot] : candidates) {
     if (bound <= kSlack * highest) break;
-    const HexahedronGeometry geometry =
-        hexahedron_geometry(corners_of<Corners>(mesh, first_corner[group->elements[slot]]));
-    const PartConstants& part = group->plan.constants;
-    const double exact =
-        group->plan.full
-            ? full_exact(geometry, part, part.density)
-            : one_point_exact(geometry, part, hourglass_constants(geometry, group->plan.hourglass_factor),
-                              part.density);
+    const double exact = exact_of(*group, mesh, first_corner[group->elements[slot]]);
     Lanes* at = &group->step_terms[slot / kLanes * 4];
     const std::size_t lane = slot % kLanes;
     const double material = at[0].value[lane], hourglass = at[1].value[lane];

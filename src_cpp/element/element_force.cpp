@@ -9,6 +9,7 @@
 #include "element/element_blocks.hpp"
 #include "element/one_point.hpp"
 #include "element/single_element.hpp"
+#include "element/wedge.hpp"
 #include "material/stored.hpp"
 
 namespace cdfp {
@@ -97,11 +98,12 @@ void ElementForce::Blocks::remove(BlockGroup& group, std::size_t slot, std::span
 void ElementForce::Blocks::clear_stiffness(BlockGroup& group, std::size_t slot) {
   const std::size_t row = slot / kLanes, lane = slot % kLanes;
   Lanes* constants = &group.constants[row * static_cast<std::size_t>(group.kernel->constants)];
-  const auto clear_hourglass = [&]<class Shape>() {
-    for (int i = 0; i < 3; ++i) constants[Shape::kStiffness + i].value[lane] = 0;
+  const auto clear_hourglass = [&]<class Shape>(int count) {
+    for (int i = 0; i < count; ++i) constants[Shape::kStiffness + i].value[lane] = 0;
   };
-  if (group.kind == BlockKind::prism_stored) clear_hourglass.operator()<host::Prism>();
-  if (group.kind == BlockKind::hexahedron_stored) clear_hourglass.operator()<host::Hexahedron>();
+  if (group.kind == BlockKind::prism_stored) clear_hourglass.operator()<host::Prism>(3);
+  if (group.kind == BlockKind::hexahedron_stored) clear_hourglass.operator()<host::Hexahedron>(3);
+  if (group.kind == BlockKind::wedge_stored) clear_hourglass.operator()<host::Wedge>(2);
   for (int k = 0; k < 4; ++k) group.step_terms[4 * row + static_cast<std::size_t>(k)].value[lane] = 0;
 }
 

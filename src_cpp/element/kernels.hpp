@@ -23,9 +23,12 @@ enum class BlockKind : int {
   hexahedron_stored,
   full_prism_stored,
   full_stored,
-  tetrahedron_stored
+  tetrahedron_stored,
+  wedge_elastic,
+  wedge_rate_dependent,
+  wedge_stored
 };
-inline constexpr int kBlockKinds = 15;
+inline constexpr int kBlockKinds = 18;
 
 struct BlockKernel {
   int corners = 0;    ///< of an element

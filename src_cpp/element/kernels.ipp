@@ -7,6 +7,7 @@
 #include "element/kernels.hpp"
 #include "element/one_point.hpp"
 #include "element/tetrahedron.hpp"
+#include "element/wedge.hpp"
 #include "material/elastic.hpp"
 #include "material/polar.hpp"
 #include "material/rate_dependent.hpp"
@@ -361,6 +362,9 @@ const Kernels CDFP_KERNELS{
       CDFP_ISA::stored_kernel<CDFP_ISA::OnePoint<CDFP_ISA::Hexahedron>>(),
       CDFP_ISA::stored_kernel<CDFP_ISA::FullIntegration<CDFP_ISA::PrismPoints>>(),
       CDFP_ISA::stored_kernel<CDFP_ISA::FullIntegration<CDFP_ISA::HexahedronPoints>>(),
-      CDFP_ISA::stored_kernel<CDFP_ISA::Tetrahedron>()}}};
+      CDFP_ISA::stored_kernel<CDFP_ISA::Tetrahedron>(),
+      CDFP_ISA::kernel<CDFP_ISA::Wedge, CDFP_ISA::Elastic>(),
+      CDFP_ISA::kernel<CDFP_ISA::Wedge, CDFP_ISA::RateDependent>(),
+      CDFP_ISA::stored_kernel<CDFP_ISA::Wedge>()}}};
 
 }  // namespace cdfp

@@ -3,6 +3,8 @@
 #include "element/full_integration.hpp"
 #include "element/one_point.hpp"
 #include "element/tetrahedron.hpp"
+#include "element/wedge.hpp"
+#include "element/wedge_geometry.hpp"
 #include "material/elastic.hpp"
 #include "material/rate_dependent.hpp"
 #include "material/stored.hpp"
@@ -48,6 +50,12 @@ void for_kind(BlockKind kind, Visit&& visit) {
       return visit.template operator()<FullIntegration<HexahedronPoints>, Stored>();
     case BlockKind::tetrahedron_stored:
       return visit.template operator()<Tetrahedron, Stored>();
+    case BlockKind::wedge_elastic:
+      return visit.template operator()<Wedge, Elastic>();
+    case BlockKind::wedge_rate_dependent:
+      return visit.template operator()<Wedge, RateDependent>();
+    case BlockKind::wedge_stored:
+      return visit.template operator()<Wedge, Stored>();
   }
 }
 
@@ -119,6 +127,11 @@ double element_volume(const BlockGroup& group, std::size_t slot, std::span<const
     TetrahedronCorners x;
     gathered(x);
     return tetrahedron_geometry(x).volume;
+  }
+  if (group.corners() == 6) {
+    WedgeCorners x;
+    gathered(x);
+    return wedge_volume(x);
   }
   Corners x;
   gathered(x);

@@ -81,21 +81,6 @@ double stiffest(const PartConstants& part, const Vector3d& g) {
   return std::max(most, highest(twist));
 }
 
-/// material and geometric of the mean gradient, from the sum of its squares over the corners. In the
-/// principal axes of the gradients' metric shear and normal strains part; the elasticity is isotropic.
-StepTerms mean_terms(const Matrix3d& metric, int corners, const PartConstants& part, double density) {
-  const double lambda = part.material.lambda, mu = part.material.mu;
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(metric, Eigen::EigenvaluesOnly);
-  const Vector3d& squares = principal.eigenvalues();
-  const Vector3d roots = squares.cwiseSqrt();
-  Matrix3d normal = lambda * roots * roots.transpose();
-  normal.diagonal() += 2 * mu * squares;
-  StepTerms terms;
-  terms.material = corners / density * std::max(mu * (squares[1] + squares[2]), highest(normal));
-  terms.geometric = corners / density * squares[2];
-  return terms;
-}
-
 /// Between the space of the mean gradient and that of an orthonormal `basis`.
 double greatest_cosine(const Corners& gradient, const Eigen::Matrix<double, 8, 4>& basis) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> metric(gradient.transpose() * gradient);
@@ -114,6 +99,20 @@ Corners point_gradient(const HexahedronGeometry& geometry, int p) {
 
 double StepTerms::bound() const {
   return std::max(material, hourglass) + coupling * std::sqrt(material * hourglass);
+}
+
+/// In the principal axes of the gradients' metric shear and normal strains part; the elasticity is isotropic.
+StepTerms mean_terms(const Matrix3d& metric, int corners, const PartConstants& part, double density) {
+  const double lambda = part.material.lambda, mu = part.material.mu;
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(metric, Eigen::EigenvaluesOnly);
+  const Vector3d& squares = principal.eigenvalues();
+  const Vector3d roots = squares.cwiseSqrt();
+  Matrix3d normal = lambda * roots * roots.transpose();
+  normal.diagonal() += 2 * mu * squares;
+  StepTerms terms;
+  terms.material = corners / density * std::max(mu * (squares[1] + squares[2]), highest(normal));
+  terms.geometric = corners / density * squares[2];
+  return terms;
 }
 
 StepTerms tetrahedron_terms(const TetrahedronGeometry& geometry, const PartConstants& part, double density) {

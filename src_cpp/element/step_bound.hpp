@@ -14,6 +14,8 @@ struct StepTerms {
   double bound() const;
 };
 
+/// material and geometric of a mean gradient whose squares sum up to `metric` over the corners.
+StepTerms mean_terms(const Eigen::Matrix3d& metric, int corners, const PartConstants& part, double density);
 StepTerms tetrahedron_terms(const TetrahedronGeometry& geometry, const PartConstants& part, double density);
 StepTerms one_point_terms(const HexahedronGeometry& geometry, const PartConstants& part,
                           const Eigen::Vector3d& hourglass, double density);

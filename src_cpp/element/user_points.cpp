@@ -206,6 +206,7 @@ void UserPoints::place(Scratch& scratch, std::size_t block, int point, Corner&& 
   for (int c = 0; c < corners_; ++c) {
     weight[c] = 1.0 / corners_;
     for (int axis = 0; axis < 3 && corners_ == 8; ++axis) weight[c] *= 1 + kSigns[c][axis] * place[axis];
+    if (corners_ == 6) weight[c] *= 1 + (c < 3 ? -1 : 1) * (point == 0 ? -at : at);
   }
   for (std::size_t i = 0; i < scratch.n; ++i) {
     const std::size_t slot = block * kBlock + i;

@@ -9,7 +9,7 @@ namespace cdfp {
 
 namespace {
 
-/// Gauss points that carry the volume: eight of a hexahedron, four of a tetrahedron.
+/// Gauss points that carry the volume: eight of a hexahedron or wedge, four of a tetrahedron.
 struct MassPoints {
   double volume = 0;
   Vec3 first_moment;
@@ -89,12 +89,20 @@ RigidMotion::RigidMotion(const Model& model, Index body, Nodes& nodes) {
   for (Index e = 0; e < model.mesh.element_count(); ++e) {
     if (model.mesh.parts[e] != part) continue;
     const Index* corners = &model.mesh.connectivity[first[e]];
-    if (model.mesh.types[e] == ElementType::tetrahedron) {
-      add_tetrahedron(model.mesh, corners, points);
-    } else {
-      add_hexahedron(model.mesh, corners, points);
+    switch (model.mesh.types[e]) {
+      case ElementType::tetrahedron:
+        add_tetrahedron(model.mesh, corners, points);
+        break;
+      case ElementType::wedge: {  // a hexahedron with two of its edges fallen into points
+        const Index fallen[8] = {corners[0], corners[1], corners[2], corners[2],
+                                 corners[3], corners[4], corners[5], corners[5]};
+        add_hexahedron(model.mesh, fallen, points);
+        break;
+      }
+      default:
+        add_hexahedron(model.mesh, corners, points);
     }
-    for (int i = 0; i < 8; ++i) mine[corners[i]] = true;
+    for (Index i = first[e]; i < first[e + 1]; ++i) mine[model.mesh.connectivity[i]] = true;
   }
   mass_ = given.mass;
   translation_fixed_ = given.translation_fixed;

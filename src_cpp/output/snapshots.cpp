@@ -13,7 +13,8 @@
 namespace cdfp {
 namespace {
 
-constexpr std::uint8_t vtk_triangle = 5, vtk_quad = 9, vtk_tetrahedron = 10, vtk_hexahedron = 12;
+constexpr std::uint8_t vtk_triangle = 5, vtk_quad = 9, vtk_tetrahedron = 10, vtk_hexahedron = 12,
+                       vtk_wedge = 13;
 
 std::string snapshot_name(const char* prefix, std::size_t number) {
   char text[40];
@@ -26,7 +27,9 @@ void write_bulk(const Frame& frame, const std::filesystem::path& path) {
   const std::vector<std::int64_t> ends(frame.first_corner.begin() + 1, frame.first_corner.end());
   std::vector<std::uint8_t> types(elements, vtk_hexahedron);
   for (std::size_t e = 0; e < elements; ++e) {
-    if (frame.first_corner[e + 1] - frame.first_corner[e] == 4) types[e] = vtk_tetrahedron;
+    const std::int64_t corners = frame.first_corner[e + 1] - frame.first_corner[e];
+    if (corners == 4) types[e] = vtk_tetrahedron;
+    if (corners == 6) types[e] = vtk_wedge;
   }
   VtuFile file(frame.positions.size() / 3, elements, frame.time);
   file.points(frame.positions);

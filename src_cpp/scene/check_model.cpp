@@ -207,8 +207,8 @@ void check_settings(const Model& model) {
 std::vector<std::string> check_model(const Model& model) {
   std::vector<std::string> warnings = check_mesh(model.mesh);
   for (const ElementType type : model.mesh.types) {
-    require(type == ElementType::hexahedron || type == ElementType::tetrahedron,
-            "a simulation takes hexahedra and tetrahedra only; convert the other elements");
+    require(type == ElementType::hexahedron || type == ElementType::tetrahedron || type == ElementType::wedge,
+            "a simulation takes hexahedra, tetrahedra and wedges only; cut each pyramid into two tetrahedra");
   }
   for (const Material& m : model.materials) check_material(m);
   for (const CohesiveLaw& law : model.cohesive_laws) check_law(law);

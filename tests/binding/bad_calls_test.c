@@ -616,6 +616,27 @@ static void mixed_meshes(void) {
   DONE(cdfp_model_free(&model));
 }
 
+/* A wedge with a tetrahedron on it runs; a pyramid is refused with its cure. */
+static void wedges(void) {
+  const double x[21] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 0.3, 0.3, 2};
+  const int32_t types[2] = {CDFP_WEDGE, CDFP_TETRAHEDRON}, pyramid[2] = {CDFP_PYRAMID, CDFP_TETRAHEDRON};
+  const int32_t corners[10] = {0, 1, 2, 3, 4, 5, 3, 4, 5, 6}, of_pyramid[9] = {0, 3, 4, 1, 2, 3, 4, 5, 6};
+  cdfp_model* model = NULL;
+  cdfp_simulation* simulation = NULL;
+  DONE(cdfp_model_create(&model));
+  DONE(cdfp_model_set_mixed_mesh(model, 7, x, 2, types, 10, corners, kParts, NULL));
+  DONE(cdfp_model_add_elastic_material(model, "glass", 2500, 74e9, 0.2));
+  DONE(cdfp_model_add_part(model, "body", "glass", CDFP_FULL, 1.0, NULL));
+  DONE(cdfp_model_set_end_time(model, 1e-4));
+  DONE(cdfp_simulation_create(model, &simulation));
+  DONE(cdfp_simulation_advance(simulation, 3, NULL));
+  DONE(cdfp_simulation_free(&simulation));
+  DONE(cdfp_model_set_mixed_mesh(model, 7, x, 2, pyramid, 9, of_pyramid, kParts, NULL));
+  REFUSED(cdfp_simulation_create(model, &simulation), CDFP_BAD_ARGUMENT,
+          "cut each pyramid into two tetrahedra");
+  DONE(cdfp_model_free(&model));
+}
+
 int main(void) {
   handles();
   models();
@@ -623,6 +644,7 @@ int main(void) {
   topologies();
   simulations();
   saved_runs();
+  wedges();
   lost_run();
   cohesive_points();
   cohesive_elements();

@@ -13,12 +13,12 @@
 namespace {
 
 using namespace cdfp;
+using bench::Shape;
 
-/// 256 elements: whole blocks.
-Model box(bool extruded, Formulation formulation, bool rate_dependent) {
+/// 256 elements, or twice as many wedges: whole blocks.
+Model box(Shape shape, Formulation formulation, bool rate_dependent) {
   constexpr Index kColumns = 8;
-  Model model = bench::plate(extruded ? bench::Shape::extruded : bench::Shape::distorted, formulation,
-                             rate_dependent, kColumns);
+  Model model = bench::plate(shape, formulation, rate_dependent, kColumns);
   model.threads = 1;  // threads that wait would count too
   return model;
 }
@@ -35,7 +35,7 @@ int forces(const Model& model, int rounds) {
 }
 
 int advance(int rounds) {
-  const Model model = box(true, Formulation::one_point, false);
+  const Model model = box(Shape::extruded, Formulation::one_point, false);
   Nodes nodes(model.mesh.coordinates);
   for (double& m : nodes.mass) m = 1;
   for (int round = 0; round < rounds; ++round) {
@@ -91,12 +91,15 @@ int plate_steps(int rounds) {
 }
 
 int run(const std::string& work, int rounds) {
-  if (work == "one_point_extruded") return forces(box(true, Formulation::one_point, false), rounds);
-  if (work == "one_point_distorted") return forces(box(false, Formulation::one_point, false), rounds);
-  if (work == "one_point_pvb") return forces(box(true, Formulation::one_point, true), rounds);
-  if (work == "full_extruded") return forces(box(true, Formulation::full, false), rounds);
-  if (work == "full_distorted") return forces(box(false, Formulation::full, false), rounds);
-  if (work == "full_pvb") return forces(box(true, Formulation::full, true), rounds);
+  if (work == "one_point_extruded")
+    return forces(box(Shape::extruded, Formulation::one_point, false), rounds);
+  if (work == "one_point_distorted")
+    return forces(box(Shape::distorted, Formulation::one_point, false), rounds);
+  if (work == "one_point_pvb") return forces(box(Shape::extruded, Formulation::one_point, true), rounds);
+  if (work == "full_extruded") return forces(box(Shape::extruded, Formulation::full, false), rounds);
+  if (work == "full_distorted") return forces(box(Shape::distorted, Formulation::full, false), rounds);
+  if (work == "full_pvb") return forces(box(Shape::extruded, Formulation::full, true), rounds);
+  if (work == "wedge") return forces(box(Shape::wedges, Formulation::one_point, false), rounds);
   if (work == "advance_node") return advance(rounds);
   if (work == "plate_step") return plate_steps(rounds);
   return 0;

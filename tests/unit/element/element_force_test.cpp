@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <functional>
 
 #include "cdfp/error.hpp"
 #include "fixtures.hpp"
@@ -11,7 +12,7 @@
 namespace cdfp::test {
 namespace {
 
-enum class Shape { prism, distorted, tetrahedra };
+enum class Shape { prism, distorted, tetrahedra, wedges, distorted_wedges };
 struct Case {
   Formulation formulation;
   Shape shape;
@@ -22,15 +23,24 @@ class EveryElement : public testing::TestWithParam<Case> {
   EveryElement() {
     box_ = {5, 4, 3, 5e-3, 4e-3, 3e-3};
     Mesh mesh = box_mesh(box_);
-    if (GetParam().shape == Shape::prism) {
+    if (GetParam().shape == Shape::prism || GetParam().shape == Shape::wedges) {
       distort_columns(mesh, box_, 0.2e-3, random_);
     } else {
       distort(mesh.coordinates, 0.2e-3, random_);
     }
-    if (GetParam().shape == Shape::tetrahedra) mesh = cut_into_tetrahedra(mesh);
+    mesh = cut(mesh);
     model_ = model_of(std::move(mesh), GetParam().formulation);
   }
-  Index corners() const { return GetParam().shape == Shape::tetrahedra ? 4 : 8; }
+  bool wedges() const {
+    return GetParam().shape == Shape::wedges || GetParam().shape == Shape::distorted_wedges;
+  }
+  Index corners() const { return GetParam().shape == Shape::tetrahedra ? 4 : wedges() ? 6 : 8; }
+  Mesh cut(const Mesh& hexahedra) const {
+    if (GetParam().shape == Shape::tetrahedra) return cut_into_tetrahedra(hexahedra);
+    if (wedges())
+      return cut_into_wedges(hexahedra, [&](Index e) { return e % (box_.nx * box_.ny) % 3 == 1; });
+    return hexahedra;
+  }
   Positions deformed(double size) {
     Positions x = mapped(model_.mesh.coordinates, Matrix3d::Identity() + random_matrix(size, random_));
     distort(x, size * 1e-3, random_);
@@ -45,6 +55,8 @@ class EveryElement : public testing::TestWithParam<Case> {
 
 std::string name_of(const testing::TestParamInfo<Case>& info) {
   if (info.param.shape == Shape::tetrahedra) return "tetrahedra";
+  if (info.param.shape == Shape::wedges) return "wedges";
+  if (info.param.shape == Shape::distorted_wedges) return "distorted_wedges";
   return std::string(info.param.formulation == Formulation::full ? "full" : "one_point") +
          (info.param.shape == Shape::prism ? "_prism" : "_distorted");
 }
@@ -54,7 +66,9 @@ INSTANTIATE_TEST_SUITE_P(Elements, EveryElement,
                                          Case{Formulation::one_point, Shape::distorted},
                                          Case{Formulation::full, Shape::prism},
                                          Case{Formulation::full, Shape::distorted},
-                                         Case{Formulation::one_point, Shape::tetrahedra}),
+                                         Case{Formulation::one_point, Shape::tetrahedra},
+                                         Case{Formulation::full, Shape::wedges},
+                                         Case{Formulation::full, Shape::distorted_wedges}),
                          name_of);
 
 TEST_P(EveryElement, IsAtRestInItsReference) {
@@ -164,8 +178,7 @@ TEST_P(EveryElement, GivesNoNetForceOrMoment) {
 
 TEST_P(EveryElement, MassIsThatOfTheVolume) {
   Model model = model_;
-  model.mesh = box_mesh(box_);
-  if (GetParam().shape == Shape::tetrahedra) model.mesh = cut_into_tetrahedra(model.mesh);
+  model.mesh = cut(box_mesh(box_));
   for (double& c : model.mesh.coordinates) c = c + 0.1 * c * c / 5e-3;
   ElementForce elements(model);
   std::vector<double> mass(std::size_t(model.mesh.node_count()), 0.0);
@@ -232,7 +245,7 @@ TEST_P(EveryElement, SplitsItsNodes) {
   const Positions before = deformed(0.05);
   const std::vector<double> force = force_of(elements, before);
   // Element 0 gets a copy of a corner for its own.
-  const Index own = corners() == 4 ? 3 : 6;
+  const Index own = corners() == 4 ? 3 : corners() == 6 ? 5 : 6;
   const Index node = model_.mesh.connectivity[own], copy = model_.mesh.node_count();
   Positions x = before;
   for (int d = 0; d < 3; ++d) x.push_back(before[3 * std::size_t(node) + d]);
@@ -345,6 +358,81 @@ TEST(ElementForce, TetrahedraAndHexahedraHoldTogether) {
   }
   EXPECT_NEAR(mass, 2500 * 16e-9, 1e-12 * 2500 * 16e-9);
   EXPECT_EQ(elements.first_inverted(x), kNone);
+}
+
+/// Elements of a distorted box by `mesh_of(i, k)`: whole hexahedra, or those of another mesh cut from it.
+void holds_together(const Box& box, unsigned seed, const std::function<ElementType(Index, Index)>& type_of) {
+  std::mt19937 random(seed);
+  Mesh whole = box_mesh(box);
+  distort(whole.coordinates, 0.15e-3, random);
+  const Mesh tetrahedra = cut_into_tetrahedra(whole), wedges = cut_into_wedges(whole);
+  Mesh mixed;
+  mixed.coordinates = whole.coordinates;
+  mixed.part_names = whole.part_names;
+  for (Index e = 0; e < whole.element_count(); ++e) {
+    const ElementType type = type_of(e % box.nx, e / (box.nx * box.ny));
+    const Mesh& from = type == ElementType::hexahedron ? whole
+                       : type == ElementType::wedge    ? wedges
+                                                       : tetrahedra;
+    const Index count = type == ElementType::hexahedron ? 1 : type == ElementType::wedge ? 2 : 6;
+    const auto first = from.connectivity.begin() + e * count * corners_of(type);
+    mixed.types.insert(mixed.types.end(), std::size_t(count), type);
+    mixed.parts.insert(mixed.parts.end(), std::size_t(count), 0);
+    mixed.connectivity.insert(mixed.connectivity.end(), first, first + count * corners_of(type));
+  }
+  for (const Formulation formulation : {Formulation::one_point, Formulation::full}) {
+    ElementForce elements(model_of(mixed, formulation));
+    const Matrix3d f = Matrix3d::Identity() + random_matrix(0.05, random);
+    const Positions x = mapped(mixed.coordinates, f);
+    const std::vector<double> force = force_of(elements, x);
+    const Matrix3d stress = to_eigen(elements.stress(0, x));
+    for (Index e = 1; e < mixed.element_count(); ++e) {
+      EXPECT_LT((to_eigen(elements.stress(e, x)) - stress).norm(), 1e-11 * stress.norm()) << "seed " << seed;
+    }
+    for (Index k = 1; k < box.nz; ++k) {
+      for (Index j = 1; j < box.ny; ++j) {
+        for (Index i = 1; i < box.nx; ++i) {
+          EXPECT_LT(at(force, box.node(i, j, k)).norm(), 1e-11 * largest(force)) << "seed " << seed;
+        }
+      }
+    }
+    EXPECT_EQ(elements.first_inverted(x), kNone);
+  }
+}
+
+TEST(ElementForce, PatchOfWedgesBesideHexahedra) {
+  holds_together({6, 4, 3, 6e-3, 4e-3, 3e-3}, 21,
+                 [](Index i, Index) { return i % 3 == 0 ? ElementType::hexahedron : ElementType::wedge; });
+}
+
+TEST(ElementForce, PatchOfTetrahedraOnWedges) {
+  holds_together({4, 4, 4, 4e-3, 4e-3, 4e-3}, 22,
+                 [](Index, Index k) { return k < 2 ? ElementType::wedge : ElementType::tetrahedron; });
+}
+
+TEST(ElementForce, RefusesAPyramidWithTheCure) {
+  Mesh mesh = box_mesh({});
+  mesh.types = {ElementType::pyramid};
+  mesh.connectivity = {0, 1, 2, 3, 4};
+  try {
+    ElementForce elements(model_of(mesh, Formulation::one_point));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("two tetrahedra"), std::string::npos);
+  }
+}
+
+TEST(ElementForce, NamesTheInvertedWedge) {
+  Mesh mesh = cut_into_wedges(box_mesh({2, 1, 1, 2, 1, 1}));
+  std::swap(mesh.connectivity[6 * 2], mesh.connectivity[6 * 2 + 1]);
+  std::swap(mesh.connectivity[6 * 2 + 3], mesh.connectivity[6 * 2 + 4]);
+  try {
+    ElementForce elements(model_of(mesh, Formulation::one_point));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Status::bad_mesh);
+    EXPECT_NE(std::string(error.what()).find("element 2 "), std::string::npos);
+  }
 }
 
 TEST(ElementForce, LeavesOutBlocksThatHaveNotMoved) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
 #include <string>
@@ -76,6 +77,28 @@ inline Mesh cut_into_tetrahedra(const Mesh& hexahedra) {
     }
   }
   return mesh;
+}
+
+/// Each hexahedron in two wedges along its third direction, by turns of the diagonal from column to column,
+/// as `turned` says of the hexahedron; neighbours match.
+inline Mesh cut_into_wedges(const Mesh& hexahedra, const std::function<bool(Index)>& turned = {}) {
+  static constexpr int kCut[2][2][6] = {{{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}},
+                                        {{0, 1, 3, 4, 5, 7}, {1, 2, 3, 5, 6, 7}}};
+  Mesh mesh;
+  mesh.coordinates = hexahedra.coordinates;
+  mesh.part_names = hexahedra.part_names;
+  for (Index e = 0; e < hexahedra.element_count(); ++e) {
+    for (const auto& corners : kCut[turned && turned(e) ? 1 : 0]) {
+      mesh.types.push_back(ElementType::wedge);
+      mesh.parts.push_back(hexahedra.parts[e]);
+      for (const int c : corners) mesh.connectivity.push_back(hexahedra.connectivity[8 * std::size_t(e) + c]);
+    }
+  }
+  return mesh;
+}
+
+inline Index corners_of(ElementType type) {
+  return type == ElementType::hexahedron ? 8 : type == ElementType::wedge ? 6 : 4;
 }
 
 /// Moves every node by up to `amount` in each direction.

@@ -9,25 +9,32 @@ namespace {
 constexpr unsigned kSeed = 42;
 constexpr double kStatic = 5.88e6, kRate = 29.21e6, kExponent = 0.176, kNu = 0.49;
 
-Model pvb(Formulation formulation, double smoothing_time) {
-  Model model = model_of(box_mesh({1, 1, 1, 1e-3, 1e-3, 1e-3}), formulation);
+enum class Kind { one_point, full, wedges };
+
+const Box kCube{1, 1, 1, 1e-3, 1e-3, 1e-3};
+
+Model pvb(Kind kind, double smoothing_time) {
+  const Mesh cube = box_mesh(kCube);
+  Model model = model_of(kind == Kind::wedges ? cut_into_wedges(cube) : cube,
+                         kind == Kind::full ? Formulation::full : Formulation::one_point);
   model.materials = {
       {"elastic", RateDependentMaterial{1000, kNu, kStatic, kRate, kExponent, smoothing_time}}};
   return model;
 }
 
-class EveryFormulation : public testing::TestWithParam<Formulation> {};
-INSTANTIATE_TEST_SUITE_P(Pvb, EveryFormulation, testing::Values(Formulation::one_point, Formulation::full),
-                         [](const auto& given) {
-                           return given.param == Formulation::full ? "full" : "one_point";
-                         });
+class EveryFormulation : public testing::TestWithParam<Kind> {};
+std::string name_of(const testing::TestParamInfo<Kind>& given) {
+  return given.param == Kind::full ? "full" : given.param == Kind::wedges ? "wedges" : "one_point";
+}
+INSTANTIATE_TEST_SUITE_P(Pvb, EveryFormulation, testing::Values(Kind::one_point, Kind::full, Kind::wedges),
+                         name_of);
 
 TEST_P(EveryFormulation, StressAtConstantRateIsModulusOfTheRateTimesStrain) {
   for (const double rate : {1.0, 100.0, 1e4}) {
     const double final_strain = 1e-4, duration = final_strain / rate;
     const int steps = 4000;
     ElementForce elements(pvb(GetParam(), duration / 400));
-    const Positions start = box_mesh({1, 1, 1, 1e-3, 1e-3, 1e-3}).coordinates;
+    const Positions start = box_mesh(kCube).coordinates;
     Positions x = start;
     for (int i = 0; i <= steps; ++i) {
       // Pure shear: equivalent rate 2 / sqrt 3 times the tensor's component.
@@ -44,7 +51,7 @@ TEST_P(EveryFormulation, StressAtConstantRateIsModulusOfTheRateTimesStrain) {
 
 TEST_P(EveryFormulation, StressIsContinuousInTime) {
   ElementForce elements(pvb(GetParam(), 1e-6));
-  const Positions start = box_mesh({1, 1, 1, 1e-3, 1e-3, 1e-3}).coordinates;
+  const Positions start = box_mesh(kCube).coordinates;
   Matrix3d f = Matrix3d::Identity();
   double before = 0;
   const double step = 1e-8;
@@ -65,7 +72,7 @@ TEST_P(EveryFormulation, NeverGivesEnergyBack) {
   for (int path = 0; path < 10; ++path) {
     const double step = 1e-8;
     ElementForce elements(pvb(GetParam(), 1e-6));
-    const Positions start = box_mesh({1, 1, 1, 1e-3, 1e-3, 1e-3}).coordinates;
+    const Positions start = box_mesh(kCube).coordinates;
     // Sums of waves of many frequencies, with every corner on its own.
     std::array<std::array<double, 3>, 24> size{}, frequency{};
     for (int d = 0; d < 24; ++d) {
@@ -105,19 +112,23 @@ TEST_P(EveryFormulation, NeverGivesEnergyBack) {
 
 TEST_P(EveryFormulation, CornerForceLeavesTheStateAlone) {
   ElementForce elements(pvb(GetParam(), 1e-6));
-  Positions x = box_mesh({1, 1, 1, 1e-3, 1e-3, 1e-3}).coordinates;
+  Positions x = box_mesh(kCube).coordinates;
   force_of(elements, x, 1e-8);
   std::mt19937 random(kSeed);
   distort(x, 1e-6, random);
   const std::vector<double> force = force_of(elements, x, 1e-8);
-  std::vector<double> corner(24);
+  const Mesh mesh = pvb(GetParam(), 1e-6).mesh;
+  const Index corners = corners_of(mesh.types[0]);
+  std::vector<double> corner(3 * std::size_t(corners));
   for (int repeat = 0; repeat < 2; ++repeat) {
-    elements.corner_force(0, x, corner);
-    const Mesh mesh = box_mesh({1, 1, 1, 1e-3, 1e-3, 1e-3});
-    for (int i = 0; i < 24; ++i) {
-      EXPECT_NEAR(corner[i], force[3 * std::size_t(mesh.connectivity[i / 3]) + i % 3],
-                  1e-12 * largest(force));
+    std::vector<double> sum(x.size(), 0.0);
+    for (Index e = 0; e < mesh.element_count(); ++e) {
+      elements.corner_force(e, x, corner);
+      for (int i = 0; i < 3 * corners; ++i) {
+        sum[3 * std::size_t(mesh.connectivity[e * corners + i / 3]) + i % 3] += corner[i];
+      }
     }
+    for (int i = 0; i < 24; ++i) EXPECT_NEAR(sum[i], force[i], 1e-12 * largest(force));
   }
 }
 

@@ -90,6 +90,40 @@ TEST(StableStep, OfATetrahedron) {
   }
 }
 
+TEST(StableStep, OfAWedge) {
+  std::mt19937 random(kSeed);
+  for (int trial = 0; trial < 90; ++trial) {
+    std::uniform_real_distribution<double> side(0.4e-3, 2e-3), portion(0, 0.25);
+    const Box box{1, 1, 1, side(random), side(random), side(random)};
+    const double least = std::min({box.lx, box.ly, box.lz});
+    Mesh cube = box_mesh(box);
+    if (trial % 3 == 1) distort_columns(cube, box, portion(random) * least, random);
+    if (trial % 3 == 2) distort(cube.coordinates, portion(random) * least, random);
+    cube = cut_into_wedges(cube);
+    Mesh mesh;
+    mesh.part_names = cube.part_names;
+    mesh.types = {ElementType::wedge};
+    mesh.parts = {0};
+    mesh.connectivity = {0, 1, 2, 3, 4, 5};
+    for (int c = 0; c < 6; ++c) {
+      const Vector3d corner = at(cube.coordinates, cube.connectivity[6 * (trial % 2) + c]);
+      mesh.coordinates.insert(mesh.coordinates.end(), corner.begin(), corner.end());
+    }
+    const double nu = std::array{0.0, 0.2, 0.3, 0.45, 0.49}[trial % 5];
+    Model model = model_of(mesh, Formulation::one_point, 74e9, nu);
+    model.parts[0].hourglass = trial % 4 == 0 ? 3.0 : 1.0;
+    ElementForce elements(model);
+    for (const double strain : {0.0, 1e-3, 0.05}) {
+      Positions x = mapped(mesh.coordinates, Matrix3d::Identity() + random_matrix(strain, random));
+      distort(x, strain * least, random);
+      const double bound = elements.stable_step(x, Threads(1)).step;
+      const double truth = true_step(elements, x, 1e-6 * least);
+      EXPECT_LE(bound, truth * (1 + 1e-6)) << "trial " << trial << " strain " << strain << " seed " << kSeed;
+      EXPECT_GE(bound, truth * (strain > 0.01 ? 0.6 : 0.985)) << "trial " << trial << " strain " << strain;
+    }
+  }
+}
+
 TEST(StableStep, HoldsInAMeshWithItsWorstElement) {
   std::mt19937 random(kSeed);
   const Box box{4, 3, 2, 4e-3, 3e-3, 2e-3};

@@ -73,7 +73,9 @@ std::vector<Kind> all_kinds(std::mt19937& random) {
           {"hexahedron", any, Formulation::one_point},
           {"full prism", columns, Formulation::full},
           {"full", any, Formulation::full},
-          {"tetrahedron", cut_into_tetrahedra(any), Formulation::one_point}};
+          {"tetrahedron", cut_into_tetrahedra(any), Formulation::one_point},
+          {"wedge", cut_into_wedges(columns), Formulation::one_point},
+          {"distorted wedge", cut_into_wedges(any), Formulation::one_point}};
 }
 
 std::vector<double> user_force(ElementForce& elements, const Positions& x, double time, double step,
@@ -171,9 +173,9 @@ TEST(UserLaw, MeanPlaceOfThePointsIsTheCentre) {
     };
     ElementForce elements(user_model(kind.mesh, kind.formulation, user_material(law)));
     user_force(elements, kind.mesh.coordinates, 1e-6, 1e-6);
-    const std::size_t corners = kind.mesh.types[0] == ElementType::tetrahedron ? 4 : 8;
+    const auto corners = static_cast<std::size_t>(corners_of(kind.mesh.types[0]));
     for (std::size_t e = 0; e < sum.size(); ++e) {
-      ASSERT_EQ(points[e], kind.formulation == Formulation::full ? 8 : 1);
+      ASSERT_EQ(points[e], corners == 6 ? 2 : kind.formulation == Formulation::full ? 8 : 1);
       Vector3d centre = Vector3d::Zero();
       for (std::size_t c = 0; c < corners; ++c) {
         centre += at(kind.mesh.coordinates, kind.mesh.connectivity[corners * e + c]) / double(corners);
@@ -377,7 +379,7 @@ TEST(UserLaw, DeletedElementsCarryNoForce) {
     EXPECT_TRUE(elements.advance_user_laws(x, 3e-6, 1e-6, Threads(1)).empty());
     std::vector<double> corner(24), all(x.size(), 0.0);
     for (Index e = 0; e < kind.mesh.element_count(); ++e) {
-      const std::size_t corners = kind.mesh.types[0] == ElementType::tetrahedron ? 4 : 8;
+      const auto corners = static_cast<std::size_t>(corners_of(kind.mesh.types[0]));
       elements.corner_force(e, x, std::span(corner).first(3 * corners));
       EXPECT_EQ(largest({corner.begin(), corner.begin() + std::ptrdiff_t(3 * corners)}) == 0, e % 3 == 0)
           << e;

@@ -42,6 +42,23 @@ TEST(Snapshots, bulk_arrays_come_back_bit_for_bit) {
   }
 }
 
+TEST(Snapshots, a_wedge_is_a_cell_of_type_13) {
+  const sample::ScratchFolder folder("wedge");
+  const std::vector<double> positions{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1}, velocities(18);
+  const std::vector<Index> connectivity{0, 1, 2, 3, 4, 5}, first_corner{0, 6}, parts{0};
+  Frame frame;
+  frame.positions = positions;
+  frame.velocities = velocities;
+  frame.connectivity = connectivity;
+  frame.first_corner = first_corner;
+  frame.parts = parts;
+  make_folder(folder.path());
+  Snapshots(folder.path()).write(frame);
+  const sample::Vtu vtu = sample::read_vtu(folder / "snapshots/0000.vtu");
+  EXPECT_EQ(vtu.at("Cells", "types").as<std::uint8_t>(), std::vector<std::uint8_t>{13});
+  EXPECT_EQ(vtu.at("Cells", "offsets").as<std::int64_t>(), std::vector<std::int64_t>{6});
+}
+
 TEST(Snapshots, crack_faces_lie_midway_between_their_sides) {
   const sample::ScratchFolder folder("faces");
   sample::State state = sample::state({}, 120e-6);
