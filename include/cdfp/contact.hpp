@@ -42,12 +42,14 @@ class PairRows {
     void start(Index first, Index partners, Index rows);
     /// The rows of the next partners go to `room()`, up to `room_size()` of them.
     Index* room() { return rows_.data() + count_; }
-    std::size_t room_size() const { return rows_.size() - count_; }
+    std::size_t room_size() const {
+      return rows_.size() > count_ + kAhead ? rows_.size() - count_ - kAhead : 0;
+    }
     void make_room();
     /// `count` rows were written there; those of the i-th partner of them end at `ends[i]`.
     void took(std::size_t count, std::span<const Index> ends);
     void add(Index row) {
-      if (count_ == rows_.size()) make_room();
+      if (room_size() == 0) make_room();
       rows_[count_++] = row;
       ++row_counts_[row];
     }
@@ -58,6 +60,8 @@ class PairRows {
 
    private:
     friend class PairRows;
+    /// Rows whose place is asked for before it is written; as many may be read past the last.
+    static constexpr std::size_t kAhead = 128;
     Index first_ = 0, partners_ = 0;
     std::vector<Index> rows_;        // as long as its use so far; the first `count_` of them hold
     std::vector<Index> ends_;        // of the partners

@@ -67,11 +67,17 @@ void PairRows::assign(Index rows, std::span<Found> shares) {
   partners_.resize(count);
   Threads(static_cast<int>(shares.size())).for_each(std::ssize(shares), [&](std::int64_t t) {
     Found& share = shares[t];
-    const Index* row = share.rows_.data();
+    if (share.count_ == 0) return;
+    Index* const row = share.rows_.data();
+    std::fill_n(row + share.count_, Found::kAhead, row[0]);
     Index* const next = share.row_counts_.data();
-    Index partner = share.first_;
+    Index* const to = partners_.data();
+    Index partner = share.first_, i = 0;
     for (const Index end : share.ends_) {
-      for (; row < share.rows_.data() + end; ++row) partners_[next[*row]++] = partner;
+      for (; i < end; ++i) {
+        __builtin_prefetch(&to[next[row[i + Found::kAhead]]], 1);
+        to[next[row[i]]++] = partner;
+      }
       ++partner;
     }
   });
