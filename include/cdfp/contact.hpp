@@ -15,6 +15,28 @@
 
 namespace cdfp {
 
+/// A list that grows without moving what it holds, and keeps its room when it is cleared.
+template <class Item, std::size_t kBlockBits>
+class GrowingList {
+ public:
+  std::size_t size() const { return size_; }
+  void clear() { size_ = 0; }
+  void resize(std::size_t size) {
+    while (blocks_.size() << kBlockBits < size) blocks_.emplace_back(kBlock);
+    size_ = size;
+  }
+  Item& operator[](std::size_t i) { return blocks_[i >> kBlockBits][i & (kBlock - 1)]; }
+  [[gnu::always_inline]] const Item& operator[](std::size_t i) const {
+    return blocks_.data()[i >> kBlockBits].data()[i & (kBlock - 1)];
+  }
+  std::size_t memory() const { return blocks_.size() * kBlock * sizeof(Item); }
+
+ private:
+  static constexpr std::size_t kBlock = std::size_t{1} << kBlockBits;
+  std::vector<std::vector<Item>> blocks_;
+  std::size_t size_ = 0;
+};
+
 /// Pairs as compressed rows, with chains for what an adaptive search adds later.
 class PairRows {
  public:
@@ -72,11 +94,9 @@ class PairRows {
   /// `Error(bad_argument)` if there are more pairs than 32 bits count.
   void assign(Index rows, std::span<Found> shares);
   void add_rows(Index count) { head_.resize(head_.size() + count, kNone); }
-  void add(Index row, Index partner) {
-    const Index next = head_[row];
-    head_[row] = static_cast<Index>(added_.size());
-    added_.push_back({partner, next});
-  }
+  void add(Index row, Index partner) { add(row, std::span(&partner, 1)); }
+  void add(Index row, std::span<const Index> partners);
+  void add(std::span<const Index> rows, Index partner);
 
  private:
   Index sorted_rows() const { return static_cast<Index>(start_.size()) - 1; }
@@ -88,7 +108,7 @@ class PairRows {
     Index partner, next;
   };
   std::vector<Index> head_;
-  std::vector<Added> added_;
+  GrowingList<Added, 11> added_;
 };
 
 /// What a global search looks at. Entities keep their numbers; new ones are appended.

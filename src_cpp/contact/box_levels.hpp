@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/cell_table.hpp"
+#include "contact/search_kernels.hpp"
 
 namespace cdfp {
 
@@ -37,12 +38,13 @@ class BoxLevels {
     }
     levels_[level].insert(box, id);
   }
-  /// `report(id)` at most once for a box, and for every one that overlaps `box`.
-  template <class Report>
-  void visit(const RoughBox& box, Report&& report) const {
+  /// Adds all that overlap `box`, and few others, each once.
+  void find(const SearchKernels& kernels, const RoughBox& box, FoundIds& found) const {
     float length = base_;
     for (const CellTable<true>& level : levels_) {
-      if (level.size() > 0) level.visit(box.low - 1.0001F * length, box, report);
+      if (level.size() > 0 && !found.full()) {
+        kernels.find_boxes(level.view(), box.low - 1.0001F * length, box, found);
+      }
       length *= 2;
     }
   }

@@ -46,14 +46,15 @@ struct ContactSearch::Cells {
   BoxLevels segment_cells, edge_cells;
   PairRows node_segments, edge_edges;
   std::vector<Index> touched_nodes, touched_edges;
+  std::vector<Index> hits, rows_of_segment;  // of one look at the cells
   // As the last call left them, for what a renamed entity was named before.
   std::vector<Index> row_of_node, corners_then, ends_then;
 
   std::vector<Float4> points;
   std::vector<Index> all_rows, names_in_cells;
   std::vector<RoughBox> boxes, edge_boxes, spaces;
-  std::vector<double> lengths;         // sums over pieces
-  std::vector<PairRows::Found> found;  // by thread
+  std::vector<double> lengths;          // sums over pieces
+  std::vector<PairRows::Found> shares;  // by thread
 
   static bool may_pair(const SurfaceView& s, Index a, Index b) {
     return a != b && (s.groups.empty() || s.groups[a] < 0 || s.groups[a] != s.groups[b]);
@@ -78,33 +79,32 @@ struct ContactSearch::Cells {
     box.grow(0.5 * buffer);
     return box;
   }
-  /// `report(rows)` with the nodes in a segment's grown box that may touch it.
-  template <class Report>
-  void nodes_in(const SurfaceView& s, Index segment, const RoughBox& rough_box, Report&& report) const {
-    const Index* const corners = corners_of(s, segment);
-    const Index* const nodes_of_rows = s.nodes.data();
-    node_cells.visit(rough_box.low, rough_box, [&](std::span<Index> rows) {
-      const std::size_t foreign = keep(rows, [&](Index row) { return !names(corners, nodes_of_rows[row]); });
-      if (foreign == 0) return;
-      const Box box = segment_box(s, segment);
-      std::size_t count =
-          keep(rows.first(foreign), [&](Index row) { return box.holds(place(s, nodes_of_rows[row])); });
-      if (!s.groups.empty()) {
-        count =
-            keep(rows.first(count), [&](Index row) { return may_pair(s, nodes_of_rows[row], corners[0]); });
-      }
-      report(rows.first(count));
-    });
+  /// All that `find(found)` adds.
+  template <class Find>
+  static std::span<Index> collect(std::vector<Index>& room, const Find& find) {
+    for (;;) {
+      FoundIds found{room.data(), 0, room.size()};
+      find(found);
+      if (!found.full()) return std::span(room).first(found.count);
+      room.resize(2 * room.size() + 1024);
+    }
+  }
+  /// The edges that may overlap a box, each once.
+  std::span<Index> edges_about(const RoughBox& box, std::vector<Index>& room) const {
+    return collect(room, [&](FoundIds& found) { edge_cells.find(kernels, box, found); });
+  }
+  ExactPairs exact(const SurfaceView& s) const {
+    return {s.nodes.data(), s.segments.data(), s.position.data(), buffer};
   }
 
   /// `search(begin, end, found)` over the partners, a share for each thread.
   template <class Search>
   void search_shares(const Threads& threads, Index partners, Index rows, const Search& search) {
-    found.resize(threads.count());
+    shares.resize(threads.count());
     threads.for_each(threads.count(), [&](std::int64_t t) {
       const std::int64_t begin = partners * t / threads.count(), end = partners * (t + 1) / threads.count();
-      found[t].start(static_cast<Index>(begin), static_cast<Index>(end - begin), rows);
-      search(begin, end, found[t]);
+      shares[t].start(static_cast<Index>(begin), static_cast<Index>(end - begin), rows);
+      search(begin, end, shares[t]);
     });
   }
 
@@ -194,14 +194,14 @@ void ContactSearch::Cells::regular(const SurfaceView& s, const Threads& threads)
   search_shares(threads, segments, nodes, [&](std::int64_t begin, std::int64_t end, PairRows::Found& here) {
     std::array<Index, kBatch> ends;
     for (std::int64_t m = begin; m < end;) {
-      FoundRows rows{here.room(), 0, here.room_size()};
+      FoundIds rows{here.room(), 0, here.room_size()};
       const std::int64_t done = kernels.pair_nodes(job, m, std::min(end, m + kBatch), rows, ends.data());
       here.took(rows.count, std::span(ends).first(done - m));
       if (done < std::min(end, m + kBatch)) here.make_room();
       m = done;
     }
   });
-  node_segments.assign(nodes, found);
+  node_segments.assign(nodes, shares);
   if (open) {
     segment_cells.reset(space, 2 * length);
     segment_cells.build(boxes, true);
@@ -221,17 +221,16 @@ void ContactSearch::Cells::pair_edges(const SurfaceView& s, const RoughBox& spac
   edge_cells.reset(space, 1.5 * length);
   edge_cells.build(edge_boxes, open);
   search_shares(threads, edges, edges, [&](std::int64_t begin, std::int64_t end, PairRows::Found& here) {
+    std::vector<Index> near_by;
     for (std::int64_t e = begin; e < end; ++e) {
       const auto edge = static_cast<Index>(e);
-      edge_cells.visit(edge_boxes[e], [&](std::span<const Index> others) {
-        for (const Index other : others) {
-          if (other < edge && edges_may_touch(s, other, edge)) here.add(other);
-        }
-      });
+      for (const Index other : edges_about(edge_boxes[e], near_by)) {
+        if (other < edge && edges_may_touch(s, other, edge)) here.add(other);
+      }
       here.end_partner();
     }
   });
-  edge_edges.assign(edges, found);
+  edge_edges.assign(edges, shares);
 }
 
 void ContactSearch::Cells::remember_names(const SurfaceView& s) {
@@ -248,11 +247,6 @@ void ContactSearch::Cells::adaptive(const SurfaceView& s, std::span<const Index>
   const Index new_nodes = static_cast<Index>(s.nodes.size());
   const Index new_segments = static_cast<Index>(s.segments.size() / 4);
   const Index new_edges = static_cast<Index>(s.edges.size() / 2);
-  const auto add = [&](Index row, Index segment) {
-    node_segments.add(row, segment);
-    if (touched_nodes.empty() || touched_nodes.back() != row) touched_nodes.push_back(row);
-  };
-
   // A renamed segment lies where it did: of the old nodes only its former corners are new to it.
   for (const Index m : renamed_segments) {
     if (m >= segments) continue;
@@ -261,7 +255,10 @@ void ContactSearch::Cells::adaptive(const SurfaceView& s, std::span<const Index>
       Index& then = corners_then[4 * static_cast<std::size_t>(m) + i];
       if (then == corners[i]) continue;
       const Index row = then < static_cast<Index>(row_of_node.size()) ? row_of_node[then] : kNone;
-      if (row != kNone && !names(corners, then) && may_pair(s, then, corners[0])) add(row, m);
+      if (row != kNone && !names(corners, then) && may_pair(s, then, corners[0])) {
+        node_segments.add(row, m);
+        touched_nodes.push_back(row);
+      }
       then = corners[i];
     }
   }
@@ -272,23 +269,43 @@ void ContactSearch::Cells::adaptive(const SurfaceView& s, std::span<const Index>
     const Index node = s.nodes[row];
     const Corner x = place(s, node);
     const Float4 at = rough(x);
-    segment_cells.visit({at, at}, [&](std::span<Index> candidates) {
-      const std::size_t foreign = keep(candidates, [&](Index m) { return !names(corners_of(s, m), node); });
-      for (const Index m : candidates.first(foreign)) {
-        if (segment_box(s, m).holds(x) && may_pair(s, node, corners_of(s, m)[0])) add(row, m);
-      }
+    const std::span<Index> near_by = collect(hits, [&](FoundIds& found) {
+      segment_cells.find(kernels, {at, at}, found);
     });
+    std::size_t count = kernels.keep_segments(exact(s), node, near_by.data(), near_by.size());
+    if (!s.groups.empty()) {
+      count = keep(near_by.first(count), [&](Index m) { return may_pair(s, node, corners_of(s, m)[0]); });
+    }
+    node_segments.add(row, near_by.first(count));
+    if (count > 0) touched_nodes.push_back(row);
     node_cells.insert(at, row);
     row_of_node[node] = row;
   }
   nodes = new_nodes;
+  Box box_before{};
+  std::span<Index> inside;
   for (Index m = segments; m < new_segments; ++m) {
-    const RoughBox box = rough(segment_box(s, m));
-    nodes_in(s, m, box, [&](std::span<const Index> rows) {
-      for (const Index row : rows) add(row, m);
-    });
+    const Index* const corners = corners_of(s, m);
+    const Box exact_box = segment_box(s, m);
+    const RoughBox box = rough(exact_box);
+    // Both faces of a facet that came free hold the same nodes.
+    if (m == segments || exact_box.low != box_before.low || exact_box.high != box_before.high) {
+      inside = collect(hits, [&](FoundIds& found) { kernels.find_points(node_cells.view(), box, found); });
+      inside = inside.first(kernels.keep_rows(exact(s), exact_box.low.data(), exact_box.high.data(),
+                                              inside.data(), inside.size()));
+      box_before = exact_box;
+    }
+    rows_of_segment.resize(inside.size());
+    std::size_t count = 0;
+    for (const Index row : inside) {
+      const Index node = s.nodes[row];
+      rows_of_segment[count] = row;
+      count += !names(corners, node) && may_pair(s, node, corners[0]);
+    }
+    node_segments.add(std::span(rows_of_segment).first(count), m);
+    touched_nodes.insert(touched_nodes.end(), rows_of_segment.begin(), rows_of_segment.begin() + count);
     segment_cells.insert(box, m);
-    corners_then.insert(corners_then.end(), corners_of(s, m), corners_of(s, m) + 4);
+    corners_then.insert(corners_then.end(), corners, corners + 4);
   }
   segments = new_segments;
 
@@ -296,22 +313,18 @@ void ContactSearch::Cells::adaptive(const SurfaceView& s, std::span<const Index>
   for (const Index e : renamed_edges) {
     if (e >= edges) continue;
     Index* then = &ends_then[2 * static_cast<std::size_t>(e)];
-    edge_cells.visit(rough(edge_box(s, e)), [&](std::span<const Index> others) {
-      for (const Index other : others) {
-        if (other == e || !share_node(then, &ends_then[2 * static_cast<std::size_t>(other)])) continue;
-        if (edges_may_touch(s, other, e)) add_edge_pair(other, e);
-      }
-    });
+    for (const Index other : edges_about(rough(edge_box(s, e)), hits)) {
+      if (other == e || !share_node(then, &ends_then[2 * static_cast<std::size_t>(other)])) continue;
+      if (edges_may_touch(s, other, e)) add_edge_pair(other, e);
+    }
     std::copy_n(ends_of(s, e), 2, then);
   }
   edge_edges.add_rows(new_edges - edges);
   for (Index e = edges; e < new_edges; ++e) {
     const RoughBox box = rough(edge_box(s, e));
-    edge_cells.visit(box, [&](std::span<const Index> others) {
-      for (const Index other : others) {
-        if (edges_may_touch(s, other, e)) add_edge_pair(other, e);
-      }
-    });
+    for (const Index other : edges_about(box, hits)) {
+      if (edges_may_touch(s, other, e)) add_edge_pair(other, e);
+    }
     edge_cells.insert(box, e);
     ends_then.insert(ends_then.end(), ends_of(s, e), ends_of(s, e) + 2);
   }
@@ -374,7 +387,7 @@ std::span<const Index> ContactSearch::touched_edge_rows() const {
 std::size_t ContactSearch::memory() const {
   const Cells& c = *cells_;
   std::size_t pairs = 0;
-  for (const PairRows::Found& share : c.found) pairs += share.memory();
+  for (const PairRows::Found& share : c.shares) pairs += share.memory();
   return c.node_cells.memory() + c.segment_cells.memory() + c.edge_cells.memory() + c.node_segments.memory() +
          c.edge_edges.memory() + c.points.capacity() * sizeof(Float4) +
          (c.boxes.capacity() + c.edge_boxes.capacity()) * sizeof(RoughBox) + pairs +

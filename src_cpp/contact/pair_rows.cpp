@@ -26,7 +26,7 @@ void PairRows::compress(std::vector<Index>& start, std::vector<Index>& partners)
 
 std::size_t PairRows::memory() const {
   return (start_.capacity() + partners_.capacity() + head_.capacity()) * sizeof(Index) +
-         added_.capacity() * sizeof(Added);
+         added_.memory();
 }
 
 void PairRows::Found::start(Index first, Index partners, Index rows) {
@@ -83,6 +83,26 @@ void PairRows::assign(Index rows, std::span<Found> shares) {
   });
   head_.assign(rows, kNone);
   added_.clear();
+}
+
+void PairRows::add(Index row, std::span<const Index> partners) {
+  auto at = static_cast<Index>(added_.size());
+  added_.resize(added_.size() + partners.size());
+  Index next = head_[row];
+  for (const Index partner : partners) {
+    added_[at] = {partner, next};
+    next = at++;
+  }
+  head_[row] = next;
+}
+
+void PairRows::add(std::span<const Index> rows, Index partner) {
+  auto at = static_cast<Index>(added_.size());
+  added_.resize(added_.size() + rows.size());
+  for (const Index row : rows) {
+    added_[at] = {partner, head_[row]};
+    head_[row] = at++;
+  }
 }
 
 }  // namespace cdfp

@@ -6,6 +6,7 @@
 
 #include "cdfp/types.hpp"
 #include "contact/cell_layout.hpp"
+#include "contact/cells_view.hpp"
 
 namespace cdfp {
 
@@ -26,10 +27,12 @@ struct NodePairs {
   double buffer;
 };
 
-/// Rows that were found, for segment after segment.
-struct FoundRows {
-  Index* rows;
-  std::size_t count, room;
+/// What decides, in double precision, whether a node and a segment pair.
+struct ExactPairs {
+  const Index* nodes;      ///< of the rows
+  const Index* corners;    ///< (segments, 4)
+  const double* position;  ///< (all nodes, 3)
+  double buffer;
 };
 
 struct SearchKernels {
@@ -41,8 +44,18 @@ struct SearchKernels {
                            std::int64_t begin, std::int64_t end, RoughBox* boxes);
   /// Segments from `begin` until `end` or until there is no more room, which is what it returns. `ends[i]`:
   /// where the rows of the i-th of them end.
-  std::int64_t (*pair_nodes)(const NodePairs& job, std::int64_t begin, std::int64_t end, FoundRows& found,
+  std::int64_t (*pair_nodes)(const NodePairs& job, std::int64_t begin, std::int64_t end, FoundIds& found,
                              Index* ends);
+  /// Adds the boxes that overlap `box`, and few others, each once. Their lowest corners lie above `low`.
+  void (*find_boxes)(const CellsView<true>& cells, const Float4& low, const RoughBox& box, FoundIds& found);
+  /// The same with points.
+  void (*find_points)(const CellsView<false>& cells, const RoughBox& box, FoundIds& found);
+  /// Moves those segments to the front whose grown boxes hold the node and that do not name it, and returns
+  /// how many they are.
+  std::size_t (*keep_segments)(const ExactPairs& pairs, Index node, Index* segments, std::size_t count);
+  /// Moves those rows to the front whose nodes are in the box [low, high], and returns how many they are.
+  std::size_t (*keep_rows)(const ExactPairs& pairs, const double* low, const double* high, Index* rows,
+                           std::size_t count);
 };
 
 extern const SearchKernels kSearchBaseline;

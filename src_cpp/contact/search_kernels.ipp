@@ -2,6 +2,8 @@
 // CDFP_ISA and CDFP_SEARCH_KERNELS. What they call is inlined.
 #include <cmath>
 
+#include "contact/cell_queries.hpp"
+#include "contact/exact_place.hpp"
 #include "contact/search_kernels.hpp"
 #include "contact/wide.hpp"
 
@@ -14,14 +16,14 @@ struct Finder {
   const NodePairs& job;
   const Index* corners;
   const RoughBox& box;
-  FoundRows& found;
-  Wide::Query query;
+  FoundIds& found;
+  Wide::Query<false> query;
   Wide::Corners own;
-  Wide::Query within;
+  Wide::Query<false> within;
   bool has_within = false;
 
   CDFP_ALWAYS_INLINE Finder(const NodePairs& pairs, const Index* of_segment, const RoughBox& grown, Int4 low,
-                            Int4 high, FoundRows& rows)
+                            Int4 high, FoundIds& rows)
       : job(pairs), corners(of_segment), box(grown), found(rows), query(low, high), own(of_segment) {}
 
   CDFP_ALWAYS_INLINE bool same_group(Index node) const {
@@ -55,14 +57,14 @@ struct Finder {
         found.count = found.room + 1;
         return;
       }
-      Wide::pick(job.rows + at, bits, found.rows + found.count);
+      Wide::pick(job.rows + at, bits, found.ids + found.count);
       found.count += static_cast<std::size_t>(__builtin_popcount(bits));
     }
   }
   CDFP_ALWAYS_INLINE void doubt(std::uint32_t at, Wide::Bits& bits) {
     if (job.layout.tells() && !has_within) {
       const Lattice::Range sure = job.layout.lattice().within(box);
-      within = Wide::Query(sure.low, sure.high);
+      within = Wide::Query<false>(sure.low, sure.high);
       has_within = true;
     }
     Wide::Bits doubtful = has_within ? bits & ~within.overlap(job.places + at, job.stride) : bits;
@@ -77,11 +79,11 @@ struct Finder {
   }
 };
 
-std::int64_t pair_nodes(const NodePairs& pairs, std::int64_t begin, std::int64_t end, FoundRows& found_rows,
+std::int64_t pair_nodes(const NodePairs& pairs, std::int64_t begin, std::int64_t end, FoundIds& found_ids,
                         Index* ends) {
   // Copies, which nothing that is written can alias.
   const NodePairs job = pairs;
-  FoundRows found = found_rows;
+  FoundIds found = found_ids;
   const auto any = [](std::uint32_t, Wide::Bits&) {};
   for (std::int64_t m = begin; m < end; ++m) {
     const std::size_t before = found.count;
@@ -102,39 +104,15 @@ std::int64_t pair_nodes(const NodePairs& pairs, std::int64_t begin, std::int64_t
         },
         [&] { finder.scan(0, static_cast<std::uint32_t>(job.points), any); });
     if (found.count > found.room) {
-      found_rows.count = before;
+      found_ids.count = before;
       return m;
     }
     job.boxes[m] = box;
     ends[m - begin] = static_cast<Index>(found.count);
   }
-  found_rows.count = found.count;
+  found_ids.count = found.count;
   return end;
 }
-
-/// A place in double precision, and the same about the origin in single precision.
-struct Place {
-#if defined(__AVX2__)
-  __m256d x;  // x, y, y, z
-
-  CDFP_ALWAYS_INLINE explicit Place(const double* p)
-      : x(_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(p)), _mm_loadu_pd(p + 1), 1)) {}
-  CDFP_ALWAYS_INLINE Float4 about(const Place& origin) const {
-    const auto lanes = reinterpret_cast<Float4>(_mm256_cvtpd_ps(_mm256_sub_pd(x, origin.x)));
-    return __builtin_shufflevector(lanes, lanes, 0, 1, 3, 3);
-  }
-#else
-  Double2 xy, z;
-
-  CDFP_ALWAYS_INLINE explicit Place(const double* p) : xy{p[0], p[1]}, z{p[2], 0} {}
-  CDFP_ALWAYS_INLINE Float4 about(const Place& origin) const {
-    typedef float Float2 __attribute__((vector_size(8)));
-    const auto flat = __builtin_convertvector(xy - origin.xy, Float2);
-    const auto high = __builtin_convertvector(z - origin.z, Float2);
-    return __builtin_shufflevector(flat, high, 0, 1, 2, 3);
-  }
-#endif
-};
 
 double place_segments(const Index* corners, const double* position, const double* middle, std::int64_t begin,
                       std::int64_t end, RoughBox* boxes) {
@@ -181,9 +159,51 @@ RoughBox place_nodes(const Index* nodes, const double* position, const double* m
   return space;
 }
 
+void find_boxes(const CellsView<true>& cells, const Float4& low, const RoughBox& box, FoundIds& found) {
+  find(cells, low, box, found);
+}
+void find_points(const CellsView<false>& cells, const RoughBox& box, FoundIds& found) {
+  find(cells, box.low, box, found);
+}
+
+std::size_t keep_segments(const ExactPairs& pairs, Index node, Index* segments, std::size_t count) {
+  std::size_t foreign = 0, kept = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Index segment = segments[i];
+    segments[foreign] = segment;
+    foreign += !any_equal(load4(pairs.corners + 4 * static_cast<std::size_t>(segment)), node - Int4{});
+  }
+  const Place x(pairs.position + 3 * static_cast<std::size_t>(node));
+  for (std::size_t i = 0; i < foreign; ++i) {
+    const Index segment = segments[i];
+    const Index* of = pairs.corners + 4 * static_cast<std::size_t>(segment);
+    const Place first(pairs.position + 3 * static_cast<std::size_t>(of[0]));
+    PlaceBox box{first, first};
+    for (int c = 1; c < 4; ++c) {
+      box.include(Place(pairs.position + 3 * static_cast<std::size_t>(of[c] == kNone ? of[0] : of[c])));
+    }
+    segments[kept] = segment;
+    kept += box.holds(x, pairs.buffer);
+  }
+  return kept;
+}
+
+std::size_t keep_rows(const ExactPairs& pairs, const double* low, const double* high, Index* rows,
+                      std::size_t count) {
+  const PlaceBox box{Place(low), Place(high)};
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Index row = rows[i];
+    rows[kept] = row;
+    kept += box.holds(Place(pairs.position + 3 * static_cast<std::size_t>(pairs.nodes[row])), 0);
+  }
+  return kept;
+}
+
 }  // namespace CDFP_ISA
 
-const SearchKernels CDFP_SEARCH_KERNELS{CDFP_ISA::place_nodes, CDFP_ISA::place_segments,
-                                        CDFP_ISA::pair_nodes};
+const SearchKernels CDFP_SEARCH_KERNELS{
+    CDFP_ISA::place_nodes, CDFP_ISA::place_segments, CDFP_ISA::pair_nodes, CDFP_ISA::find_boxes,
+    CDFP_ISA::find_points, CDFP_ISA::keep_segments,  CDFP_ISA::keep_rows};
 
 }  // namespace cdfp

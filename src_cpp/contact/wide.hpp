@@ -20,7 +20,8 @@ struct Wide {
   using Bits = std::uint32_t;
   static constexpr std::uint32_t kLanes = 32;
 
-  /// Places from `low` to `high`, modulo 2^16.
+  /// Places from `low` to `high`, modulo 2^16, of points or boxes.
+  template <bool kBoxes>
   struct Query {
     __m512i low[3], extent[3];
     Query() = default;
@@ -35,7 +36,22 @@ struct Wide {
       Bits bits = ~Bits{0};
       for (std::size_t d = 0; d < 3; ++d) {
         const __m512i at = _mm512_loadu_si512(places + d * stride);
-        bits = _mm512_mask_cmple_epu16_mask(bits, _mm512_sub_epi16(at, low[d]), extent[d]);
+        // Saturated, it reaches everywhere.
+        const __m512i reach =
+            kBoxes ? _mm512_adds_epu16(extent[d], _mm512_loadu_si512(places + (3 + d) * stride)) : extent[d];
+        bits = _mm512_mask_cmple_epu16_mask(bits, _mm512_sub_epi16(at, low[d]), reach);
+      }
+      return bits;
+    }
+    CDFP_ALWAYS_INLINE Bits overlap_eight(const std::uint16_t* places, std::size_t stride) const {
+      const auto load = [&](std::size_t field) {
+        return _mm_loadu_si128(reinterpret_cast<const __m128i*>(places + field * stride));
+      };
+      __mmask8 bits = 0xFF;
+      for (std::size_t d = 0; d < 3; ++d) {
+        const __m128i above = _mm_sub_epi16(load(d), _mm512_castsi512_si128(low[d]));
+        const __m128i most = _mm512_castsi512_si128(extent[d]);
+        bits = _mm_mask_cmple_epu16_mask(bits, above, kBoxes ? _mm_adds_epu16(most, load(3 + d)) : most);
       }
       return bits;
     }
@@ -64,6 +80,11 @@ struct Wide {
     _mm512_storeu_si512(to + __builtin_popcount(first),
                         _mm512_maskz_compress_epi32(last, _mm512_loadu_si512(ids + 16)));
   }
+  CDFP_ALWAYS_INLINE static void pick_eight(const Index* ids, Bits bits, Index* to) {
+    const __m256i eight = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                        _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), eight));
+  }
 };
 
 #elif defined(__AVX2__)
@@ -72,6 +93,7 @@ struct Wide {
   using Bits = std::uint32_t;
   static constexpr std::uint32_t kLanes = 16;
 
+  template <bool kBoxes>
   struct Query {
     __m256i low[3], extent[3];
     Query() = default;
@@ -87,9 +109,27 @@ struct Wide {
       for (std::size_t d = 0; d < 3; ++d) {
         const __m256i at = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(places + d * stride));
         const __m256i above = _mm256_sub_epi16(at, low[d]);
-        all = _mm256_and_si256(all, _mm256_cmpeq_epi16(_mm256_min_epu16(above, extent[d]), above));
+        __m256i reach = extent[d];
+        if (kBoxes) {
+          const auto* of_box = reinterpret_cast<const __m256i*>(places + (3 + d) * stride);
+          reach = _mm256_adds_epu16(reach, _mm256_loadu_si256(of_box));  // saturated, it reaches everywhere
+        }
+        all = _mm256_and_si256(all, _mm256_cmpeq_epi16(_mm256_min_epu16(above, reach), above));
       }
       return bits_of(all);
+    }
+    CDFP_ALWAYS_INLINE Bits overlap_eight(const std::uint16_t* places, std::size_t stride) const {
+      const auto load = [&](std::size_t field) {
+        return _mm_loadu_si128(reinterpret_cast<const __m128i*>(places + field * stride));
+      };
+      __m128i all = _mm_set1_epi16(-1);
+      for (std::size_t d = 0; d < 3; ++d) {
+        const __m128i above = _mm_sub_epi16(load(d), _mm256_castsi256_si128(low[d]));
+        __m128i reach = _mm256_castsi256_si128(extent[d]);
+        if (kBoxes) reach = _mm_adds_epu16(reach, load(3 + d));
+        all = _mm_and_si128(all, _mm_cmpeq_epi16(_mm_min_epu16(above, reach), above));
+      }
+      return static_cast<Bits>(_mm_movemask_epi8(_mm_packs_epi16(all, _mm_setzero_si128())));
     }
   };
   struct Corners {
@@ -113,17 +153,18 @@ struct Wide {
     if (bits >> 8 != 0) pick_eight(ids + 8, bits >> 8, to + __builtin_popcount(first));
   }
 
- private:
-  CDFP_ALWAYS_INLINE static Bits bits_of(__m256i truth) {
-    const __m256i bytes = _mm256_packs_epi16(truth, _mm256_setzero_si256());
-    const auto bits = static_cast<Bits>(_mm256_movemask_epi8(bytes));
-    return (bits & 0xFFU) | (bits >> 8 & 0xFF00U);
-  }
   CDFP_ALWAYS_INLINE static void pick_eight(const Index* ids, Bits bits, Index* to) {
     const __m256i lanes =
         _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(kLaneLists[bits].lanes)));
     const __m256i eight = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(eight, lanes));
+  }
+
+ private:
+  CDFP_ALWAYS_INLINE static Bits bits_of(__m256i truth) {
+    const __m256i bytes = _mm256_packs_epi16(truth, _mm256_setzero_si256());
+    const auto bits = static_cast<Bits>(_mm256_movemask_epi8(bytes));
+    return (bits & 0xFFU) | (bits >> 8 & 0xFF00U);
   }
 };
 
@@ -133,6 +174,7 @@ struct Wide {
   using Bits = std::uint32_t;
   static constexpr std::uint32_t kLanes = 8;
 
+  template <bool kBoxes>
   struct Query {
     Short8 low[3], extent[3];
     Query() = default;
@@ -146,9 +188,17 @@ struct Wide {
       all = ~all;
       for (std::size_t d = 0; d < 3; ++d) {
         const Short8 above = load8(places + d * stride) - low[d];
-        all &= above <= extent[d];
+        if (kBoxes) {
+          const Short8 of_box = load8(places + (3 + d) * stride), reach = of_box + extent[d];
+          all &= (above <= reach) | (reach < of_box);  // the sum ran over: it reaches everywhere
+        } else {
+          all &= above <= extent[d];
+        }
       }
       return lane_bits(all);
+    }
+    CDFP_ALWAYS_INLINE Bits overlap_eight(const std::uint16_t* places, std::size_t stride) const {
+      return overlap(places, stride);
     }
   };
   struct Corners {
@@ -164,6 +214,9 @@ struct Wide {
     }
   };
   CDFP_ALWAYS_INLINE static void pick(const Index* ids, Bits bits, Index* to) {
+    pick_of_eight(ids, bits, to);
+  }
+  CDFP_ALWAYS_INLINE static void pick_eight(const Index* ids, Bits bits, Index* to) {
     pick_of_eight(ids, bits, to);
   }
 };
