@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "contact/cell_table.hpp"
-#include "contact/search_kernels.hpp"
 
 namespace cdfp {
 
@@ -38,13 +37,12 @@ class BoxLevels {
     }
     levels_[level].insert(box, id);
   }
-  /// Adds all that overlap `box`, and few others, each once.
-  void find(const SearchKernels& kernels, const RoughBox& box, FoundIds& found) const {
+  /// `look(cells, low)` into each level: the lowest corners of what overlaps `box` lie above `low`.
+  template <class Look>
+  void visit(const RoughBox& box, const Look& look) const {
     float length = base_;
     for (const CellTable<true>& level : levels_) {
-      if (level.size() > 0 && !found.full()) {
-        kernels.find_boxes(level.view(), box.low - 1.0001F * length, box, found);
-      }
+      if (level.size() > 0) look(level.view(), box.low - 1.0001F * length);
       length *= 2;
     }
   }

@@ -6,11 +6,20 @@
 
 namespace cdfp::CDFP_ISA {
 
-template <bool kBoxes>
+/// Takes whatever overlaps.
+struct NoDoubt {
+  CDFP_ALWAYS_INLINE Wide::Bits sure(const std::uint16_t*, std::size_t) const { return ~Wide::Bits{0}; }
+  CDFP_ALWAYS_INLINE Wide::Bits sure_eight(const std::uint16_t*, std::size_t) const { return ~Wide::Bits{0}; }
+  CDFP_ALWAYS_INLINE bool passes(Index) const { return true; }
+};
+
+/// `Doubt`: tells which entries are in beyond doubt, and whether another one passes.
+template <bool kBoxes, class Doubt>
 struct CellQuery {
   const CellsView<kBoxes>& cells;
   FoundIds& found;
   Wide::Query<kBoxes> query;
+  const Doubt& doubt;
 
   template <class Filter>
   CDFP_ALWAYS_INLINE void scan_sorted(std::uint32_t at, std::uint32_t end, const Filter& filter) {
@@ -21,6 +30,7 @@ struct CellQuery {
       if (left < Wide::kLanes) bits &= (Wide::Bits{1} << left) - 1;
       if (bits == 0) continue;
       filter(places, cells.stride, bits);
+      settle(cells.ids + at, bits & ~doubt.sure(places, cells.stride), bits);
       if (!has_room()) return;
       Wide::pick(cells.ids + at, bits, found.ids + found.count);
       found.count += static_cast<std::size_t>(__builtin_popcount(bits));
@@ -28,13 +38,19 @@ struct CellQuery {
   }
   template <class Filter>
   CDFP_ALWAYS_INLINE void look_at_late(Index block, const Filter& filter) {
-    const LateEntries<kBoxes>& late = cells.late[block];
+    const LateEntries<kBoxes>& late = cells.late[static_cast<std::size_t>(block)];
     Wide::Bits bits = query.overlap_eight(late.places.data(), 8) & (0xFFU >> (8 - cells.links[block].count));
     if (bits == 0) return;
     filter(late.places.data(), 8, bits);
+    settle(late.ids.data(), bits & ~doubt.sure_eight(late.places.data(), 8), bits);
     if (!has_room()) return;
     Wide::pick_eight(late.ids.data(), bits, found.ids + found.count);
     found.count += static_cast<std::size_t>(__builtin_popcount(bits));
+  }
+  CDFP_ALWAYS_INLINE void settle(const Index* ids, Wide::Bits doubtful, Wide::Bits& bits) {
+    for (; doubtful != 0; doubtful &= doubtful - 1) {
+      if (!doubt.passes(ids[__builtin_ctz(doubtful)])) bits &= ~(doubtful & -doubtful);
+    }
   }
   template <class Filter>
   CDFP_ALWAYS_INLINE void scan(std::uint32_t begin, std::uint32_t end, const Filter& filter) {
@@ -63,14 +79,14 @@ CDFP_ALWAYS_INLINE bool in_row(const std::uint16_t* places, std::size_t stride, 
 
 /// Adds the entries that overlap `box`, and few others, each once. Their lowest corners lie in [low,
 /// box.high].
-template <bool kBoxes>
+template <bool kBoxes, class Doubt>
 CDFP_ALWAYS_INLINE void find(const CellsView<kBoxes>& cells, Float4 low, const RoughBox& box,
-                             FoundIds& found_ids) {
+                             const Doubt& doubt, FoundIds& found_ids) {
   // A copy, which nothing that is written can alias.
   FoundIds found = found_ids;
   const CellLayout& layout = cells.layout;
   const Int4 to = layout.lattice()(box.high);
-  CellQuery<kBoxes> query{cells, found, {layout.lattice()(box.low), to}};
+  CellQuery<kBoxes, Doubt> query{cells, found, {layout.lattice()(box.low), to}, doubt};
   const auto any = [](const std::uint16_t*, std::size_t, Wide::Bits&) {};
   layout.visit(
       layout.lattice()(low), to, cells.sorted + cells.late_count,

@@ -46,7 +46,8 @@ struct ContactSearch::Cells {
   BoxLevels segment_cells, edge_cells;
   PairRows node_segments, edge_edges;
   std::vector<Index> touched_nodes, touched_edges;
-  std::vector<Index> hits, rows_of_segment;  // of one look at the cells
+  std::vector<Index> hits, rows_of_segment;  // of looks at the cells
+  std::vector<std::size_t> hits_end;
   // As the last call left them, for what a renamed entity was named before.
   std::vector<Index> row_of_node, corners_then, ends_then;
 
@@ -79,23 +80,28 @@ struct ContactSearch::Cells {
     box.grow(0.5 * buffer);
     return box;
   }
-  /// All that `find(found)` adds.
+  /// What `find(found)` adds to the first `begin` in `room`.
   template <class Find>
-  static std::span<Index> collect(std::vector<Index>& room, const Find& find) {
+  static std::span<Index> collect(std::vector<Index>& room, std::size_t begin, const Find& find) {
     for (;;) {
-      FoundIds found{room.data(), 0, room.size()};
+      FoundIds found{room.data(), begin, room.size()};
       find(found);
-      if (!found.full()) return std::span(room).first(found.count);
+      if (!found.full()) return std::span(room).subspan(begin, found.count - begin);
       room.resize(2 * room.size() + 1024);
     }
   }
   /// The edges that may overlap a box, each once.
   std::span<Index> edges_about(const RoughBox& box, std::vector<Index>& room) const {
-    return collect(room, [&](FoundIds& found) { edge_cells.find(kernels, box, found); });
+    return collect(room, 0, [&](FoundIds& found) {
+      edge_cells.visit(box,
+                       [&](const auto& cells, Float4 low) { kernels.find_boxes(cells, low, box, found); });
+    });
   }
   ExactPairs exact(const SurfaceView& s) const {
     return {s.nodes.data(), s.segments.data(), s.position.data(), buffer};
   }
+  void pair_new_nodes(const SurfaceView& s, Index end);
+  void pair_new_segments(const SurfaceView& s, Index end);
 
   /// `search(begin, end, found)` over the partners, a share for each thread.
   template <class Search>
@@ -240,6 +246,67 @@ void ContactSearch::Cells::remember_names(const SurfaceView& s) {
   ends_then.assign(s.edges.begin(), s.edges.end());
 }
 
+/// With the old segments.
+void ContactSearch::Cells::pair_new_nodes(const SurfaceView& s, Index end) {
+  hits_end.clear();
+  std::size_t count = 0;
+  for (Index row = nodes; row < end; ++row) {
+    const Index node = s.nodes[row];
+    const Float4 at = rough(place(s, node));
+    const std::span<Index> near_by = collect(hits, count, [&](FoundIds& found) {
+      segment_cells.visit({at, at}, [&](const auto& cells, Float4 low) {
+        kernels.find_segments(cells, low, at, exact(s), node, found);
+      });
+    });
+    for (const Index m : near_by) __builtin_prefetch(corners_of(s, m));
+    count += near_by.size();
+    hits_end.push_back(count);
+    node_cells.insert(at, row);
+    row_of_node[node] = row;
+  }
+  count = 0;
+  for (Index row = nodes; row < end; ++row) {
+    const Index node = s.nodes[row];
+    const std::span<Index> near_by = std::span(hits).subspan(count, hits_end[row - nodes] - count);
+    count = hits_end[row - nodes];
+    std::size_t foreign = keep(near_by, [&](Index m) { return !names(corners_of(s, m), node); });
+    if (!s.groups.empty()) {
+      foreign = keep(near_by.first(foreign), [&](Index m) { return may_pair(s, node, corners_of(s, m)[0]); });
+    }
+    node_segments.add(row, near_by.first(foreign));
+    if (foreign > 0) touched_nodes.push_back(row);
+  }
+  nodes = end;
+}
+
+void ContactSearch::Cells::pair_new_segments(const SurfaceView& s, Index end) {
+  Box box_before{};
+  std::span<Index> inside;
+  for (Index m = segments; m < end; ++m) {
+    const Index* const corners = corners_of(s, m);
+    const Box box = segment_box(s, m);
+    const RoughBox rough_box = rough(box);
+    // Both faces of a facet that came free hold the same nodes.
+    if (m == segments || box.low != box_before.low || box.high != box_before.high) {
+      inside = collect(hits, 0, [&](FoundIds& found) {
+        kernels.find_rows(node_cells.view(), rough_box, exact(s), box.low.data(), box.high.data(), found);
+      });
+      box_before = box;
+    }
+    rows_of_segment.assign(inside.begin(), inside.end());
+    std::size_t foreign = keep(rows_of_segment, [&](Index row) { return !names(corners, s.nodes[row]); });
+    if (!s.groups.empty()) {
+      foreign = keep(std::span(rows_of_segment).first(foreign),
+                     [&](Index row) { return may_pair(s, s.nodes[row], corners[0]); });
+    }
+    node_segments.add(std::span(rows_of_segment).first(foreign), m);
+    touched_nodes.insert(touched_nodes.end(), rows_of_segment.begin(), rows_of_segment.begin() + foreign);
+    segment_cells.insert(rough_box, m);
+    corners_then.insert(corners_then.end(), corners, corners + 4);
+  }
+  segments = end;
+}
+
 void ContactSearch::Cells::adaptive(const SurfaceView& s, std::span<const Index> renamed_segments,
                                     std::span<const Index> renamed_edges) {
   touched_nodes.clear();
@@ -265,49 +332,8 @@ void ContactSearch::Cells::adaptive(const SurfaceView& s, std::span<const Index>
 
   node_segments.add_rows(new_nodes - nodes);
   if (row_of_node.size() < s.position.size() / 3) row_of_node.resize(s.position.size() / 3, kNone);
-  for (Index row = nodes; row < new_nodes; ++row) {
-    const Index node = s.nodes[row];
-    const Corner x = place(s, node);
-    const Float4 at = rough(x);
-    const std::span<Index> near_by = collect(hits, [&](FoundIds& found) {
-      segment_cells.find(kernels, {at, at}, found);
-    });
-    std::size_t count = kernels.keep_segments(exact(s), node, near_by.data(), near_by.size());
-    if (!s.groups.empty()) {
-      count = keep(near_by.first(count), [&](Index m) { return may_pair(s, node, corners_of(s, m)[0]); });
-    }
-    node_segments.add(row, near_by.first(count));
-    if (count > 0) touched_nodes.push_back(row);
-    node_cells.insert(at, row);
-    row_of_node[node] = row;
-  }
-  nodes = new_nodes;
-  Box box_before{};
-  std::span<Index> inside;
-  for (Index m = segments; m < new_segments; ++m) {
-    const Index* const corners = corners_of(s, m);
-    const Box exact_box = segment_box(s, m);
-    const RoughBox box = rough(exact_box);
-    // Both faces of a facet that came free hold the same nodes.
-    if (m == segments || exact_box.low != box_before.low || exact_box.high != box_before.high) {
-      inside = collect(hits, [&](FoundIds& found) { kernels.find_points(node_cells.view(), box, found); });
-      inside = inside.first(kernels.keep_rows(exact(s), exact_box.low.data(), exact_box.high.data(),
-                                              inside.data(), inside.size()));
-      box_before = exact_box;
-    }
-    rows_of_segment.resize(inside.size());
-    std::size_t count = 0;
-    for (const Index row : inside) {
-      const Index node = s.nodes[row];
-      rows_of_segment[count] = row;
-      count += !names(corners, node) && may_pair(s, node, corners[0]);
-    }
-    node_segments.add(std::span(rows_of_segment).first(count), m);
-    touched_nodes.insert(touched_nodes.end(), rows_of_segment.begin(), rows_of_segment.begin() + count);
-    segment_cells.insert(box, m);
-    corners_then.insert(corners_then.end(), corners, corners + 4);
-  }
-  segments = new_segments;
+  pair_new_nodes(s, new_nodes);
+  pair_new_segments(s, new_segments);
 
   // A renamed edge pairs anew with those that shared a node with it and do so no more.
   for (const Index e : renamed_edges) {

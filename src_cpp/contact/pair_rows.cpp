@@ -25,8 +25,7 @@ void PairRows::compress(std::vector<Index>& start, std::vector<Index>& partners)
 }
 
 std::size_t PairRows::memory() const {
-  return (start_.capacity() + partners_.capacity() + head_.capacity()) * sizeof(Index) +
-         added_.memory();
+  return (start_.capacity() + partners_.capacity() + head_.capacity()) * sizeof(Index) + added_.memory();
 }
 
 void PairRows::Found::start(Index first, Index partners, Index rows) {

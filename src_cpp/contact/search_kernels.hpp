@@ -48,14 +48,13 @@ struct SearchKernels {
                              Index* ends);
   /// Adds the boxes that overlap `box`, and few others, each once. Their lowest corners lie above `low`.
   void (*find_boxes)(const CellsView<true>& cells, const Float4& low, const RoughBox& box, FoundIds& found);
-  /// The same with points.
-  void (*find_points)(const CellsView<false>& cells, const RoughBox& box, FoundIds& found);
-  /// Moves those segments to the front whose grown boxes hold the node and that do not name it, and returns
-  /// how many they are.
-  std::size_t (*keep_segments)(const ExactPairs& pairs, Index node, Index* segments, std::size_t count);
-  /// Moves those rows to the front whose nodes are in the box [low, high], and returns how many they are.
-  std::size_t (*keep_rows)(const ExactPairs& pairs, const double* low, const double* high, Index* rows,
-                           std::size_t count);
+  /// Adds the segments whose grown boxes, as they are in the table or now, hold the node that is at `place`.
+  void (*find_segments)(const CellsView<true>& cells, const Float4& low, const Float4& place,
+                        const ExactPairs& exact, Index node, FoundIds& found);
+  /// Adds the rows of the nodes that are, or were when the table took them, in a box; `low` and `high`: the
+  /// same box in double precision.
+  void (*find_rows)(const CellsView<false>& cells, const RoughBox& box, const ExactPairs& exact,
+                    const double* low, const double* high, FoundIds& found);
 };
 
 extern const SearchKernels kSearchBaseline;

@@ -63,7 +63,7 @@ struct Finder {
   }
   CDFP_ALWAYS_INLINE void doubt(std::uint32_t at, Wide::Bits& bits) {
     if (job.layout.tells() && !has_within) {
-      const Lattice::Range sure = job.layout.lattice().within(box);
+      const Lattice::Range sure = job.layout.lattice().within(box, 0);
       within = Wide::Query<false>(sure.low, sure.high);
       has_within = true;
     }
@@ -160,50 +160,66 @@ RoughBox place_nodes(const Index* nodes, const double* position, const double* m
 }
 
 void find_boxes(const CellsView<true>& cells, const Float4& low, const RoughBox& box, FoundIds& found) {
-  find(cells, low, box, found);
-}
-void find_points(const CellsView<false>& cells, const RoughBox& box, FoundIds& found) {
-  find(cells, box.low, box, found);
+  find(cells, low, box, NoDoubt{}, found);
 }
 
-std::size_t keep_segments(const ExactPairs& pairs, Index node, Index* segments, std::size_t count) {
-  std::size_t foreign = 0, kept = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Index segment = segments[i];
-    segments[foreign] = segment;
-    foreign += !any_equal(load4(pairs.corners + 4 * static_cast<std::size_t>(segment)), node - Int4{});
+struct SegmentDoubt {
+  const ExactPairs& exact;
+  Wide::Query<true> query;
+  Place x;
+  bool tells;
+
+  CDFP_ALWAYS_INLINE Wide::Bits sure(const std::uint16_t* places, std::size_t stride) const {
+    return tells ? query.hold(places, stride) : 0;
   }
-  const Place x(pairs.position + 3 * static_cast<std::size_t>(node));
-  for (std::size_t i = 0; i < foreign; ++i) {
-    const Index segment = segments[i];
-    const Index* of = pairs.corners + 4 * static_cast<std::size_t>(segment);
-    const Place first(pairs.position + 3 * static_cast<std::size_t>(of[0]));
+  CDFP_ALWAYS_INLINE Wide::Bits sure_eight(const std::uint16_t* places, std::size_t stride) const {
+    return tells ? query.hold_eight(places, stride) : 0;
+  }
+  CDFP_ALWAYS_INLINE bool passes(Index segment) const {
+    const Index* of = exact.corners + 4 * static_cast<std::size_t>(segment);
+    const Place first(exact.position + 3 * static_cast<std::size_t>(of[0]));
     PlaceBox box{first, first};
     for (int c = 1; c < 4; ++c) {
-      box.include(Place(pairs.position + 3 * static_cast<std::size_t>(of[c] == kNone ? of[0] : of[c])));
+      box.include(Place(exact.position + 3 * static_cast<std::size_t>(of[c] == kNone ? of[0] : of[c])));
     }
-    segments[kept] = segment;
-    kept += box.holds(x, pairs.buffer);
+    return box.holds(x, exact.buffer);
   }
-  return kept;
+};
+void find_segments(const CellsView<true>& cells, const Float4& low, const Float4& place,
+                   const ExactPairs& exact, Index node, FoundIds& found) {
+  const Int4 at = cells.layout.lattice()(place);
+  const SegmentDoubt doubt{
+      exact, {at, at}, Place(exact.position + 3 * static_cast<std::size_t>(node)), cells.layout.tells()};
+  find(cells, low, {place, place}, doubt, found);
 }
 
-std::size_t keep_rows(const ExactPairs& pairs, const double* low, const double* high, Index* rows,
-                      std::size_t count) {
-  const PlaceBox box{Place(low), Place(high)};
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Index row = rows[i];
-    rows[kept] = row;
-    kept += box.holds(Place(pairs.position + 3 * static_cast<std::size_t>(pairs.nodes[row])), 0);
+struct RowDoubt {
+  const ExactPairs& exact;
+  Wide::Query<false> within;
+  PlaceBox box;
+  bool tells;
+
+  CDFP_ALWAYS_INLINE Wide::Bits sure(const std::uint16_t* places, std::size_t stride) const {
+    return tells ? within.overlap(places, stride) : 0;
   }
-  return kept;
+  CDFP_ALWAYS_INLINE Wide::Bits sure_eight(const std::uint16_t* places, std::size_t stride) const {
+    return tells ? within.overlap_eight(places, stride) : 0;
+  }
+  CDFP_ALWAYS_INLINE bool passes(Index row) const {
+    return box.holds(Place(exact.position + 3 * static_cast<std::size_t>(exact.nodes[row])), 0);
+  }
+};
+void find_rows(const CellsView<false>& cells, const RoughBox& box, const ExactPairs& exact, const double* low,
+               const double* high, FoundIds& found) {
+  // What left space since is on the border.
+  const Lattice::Range sure = cells.layout.lattice().within(box, 1);
+  const RowDoubt doubt{exact, {sure.low, sure.high}, {Place(low), Place(high)}, cells.layout.tells()};
+  find(cells, box.low, box, doubt, found);
 }
 
 }  // namespace CDFP_ISA
 
-const SearchKernels CDFP_SEARCH_KERNELS{
-    CDFP_ISA::place_nodes, CDFP_ISA::place_segments, CDFP_ISA::pair_nodes, CDFP_ISA::find_boxes,
-    CDFP_ISA::find_points, CDFP_ISA::keep_segments,  CDFP_ISA::keep_rows};
+const SearchKernels CDFP_SEARCH_KERNELS{CDFP_ISA::place_nodes, CDFP_ISA::place_segments, CDFP_ISA::pair_nodes,
+                                        CDFP_ISA::find_boxes,  CDFP_ISA::find_segments,  CDFP_ISA::find_rows};
 
 }  // namespace cdfp

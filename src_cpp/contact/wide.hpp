@@ -55,6 +55,29 @@ struct Wide {
       }
       return bits;
     }
+    /// Boxes that hold the place `low` two steps from their sides.
+    CDFP_ALWAYS_INLINE Bits hold(const std::uint16_t* places, std::size_t stride) const {
+      Bits bits = ~Bits{0};
+      for (std::size_t d = 0; d < 3; ++d) {
+        const __m512i at = _mm512_sub_epi16(_mm512_loadu_si512(places + d * stride), low[d]);
+        const __m512i room = _mm512_loadu_si512(places + (3 + d) * stride);
+        bits = _mm512_mask_cmplt_epu16_mask(bits, _mm512_sub_epi16(at, _mm512_set1_epi16(2)),
+                                            _mm512_subs_epu16(room, _mm512_set1_epi16(3)));
+      }
+      return bits;
+    }
+    CDFP_ALWAYS_INLINE Bits hold_eight(const std::uint16_t* places, std::size_t stride) const {
+      const auto load = [&](std::size_t field) {
+        return _mm_loadu_si128(reinterpret_cast<const __m128i*>(places + field * stride));
+      };
+      __mmask8 bits = 0xFF;
+      for (std::size_t d = 0; d < 3; ++d) {
+        const __m128i at = _mm_sub_epi16(load(d), _mm512_castsi512_si128(low[d]));
+        bits = _mm_mask_cmplt_epu16_mask(bits, _mm_sub_epi16(at, _mm_set1_epi16(2)),
+                                         _mm_subs_epu16(load(3 + d), _mm_set1_epi16(3)));
+      }
+      return bits;
+    }
   };
   /// The corners of a segment.
   struct Corners {
@@ -131,6 +154,22 @@ struct Wide {
       }
       return static_cast<Bits>(_mm_movemask_epi8(_mm_packs_epi16(all, _mm_setzero_si128())));
     }
+    CDFP_ALWAYS_INLINE Bits hold(const std::uint16_t* places, std::size_t stride) const {
+      return hold_eight(places, stride) | hold_eight(places + 8, stride) << 8;
+    }
+    CDFP_ALWAYS_INLINE Bits hold_eight(const std::uint16_t* places, std::size_t stride) const {
+      const auto load = [&](std::size_t field) {
+        return _mm_loadu_si128(reinterpret_cast<const __m128i*>(places + field * stride));
+      };
+      __m128i any = _mm_setzero_si128();
+      for (std::size_t d = 0; d < 3; ++d) {
+        const __m128i at = _mm_sub_epi16(load(d), _mm256_castsi256_si128(low[d]));
+        const __m128i past = _mm_sub_epi16(at, _mm_set1_epi16(2));
+        const __m128i room = _mm_subs_epu16(load(3 + d), _mm_set1_epi16(3));
+        any = _mm_or_si128(any, _mm_cmpeq_epi16(_mm_max_epu16(past, room), past));  // past >= room
+      }
+      return ~static_cast<Bits>(_mm_movemask_epi8(_mm_packs_epi16(any, _mm_setzero_si128()))) & 0xFFU;
+    }
   };
   struct Corners {
     __m256i corner[4];
@@ -199,6 +238,18 @@ struct Wide {
     }
     CDFP_ALWAYS_INLINE Bits overlap_eight(const std::uint16_t* places, std::size_t stride) const {
       return overlap(places, stride);
+    }
+    CDFP_ALWAYS_INLINE Bits hold(const std::uint16_t* places, std::size_t stride) const {
+      Truth8 all{};
+      all = ~all;
+      for (std::size_t d = 0; d < 3; ++d) {
+        const Short8 at = load8(places + d * stride) - low[d], room = load8(places + (3 + d) * stride);
+        all &= (room > 3) & (static_cast<Short8>(at - 2) < static_cast<Short8>(room - 3));
+      }
+      return lane_bits(all);
+    }
+    CDFP_ALWAYS_INLINE Bits hold_eight(const std::uint16_t* places, std::size_t stride) const {
+      return hold(places, stride);
     }
   };
   struct Corners {
