@@ -94,7 +94,12 @@ class PairRows {
   /// `Error(bad_argument)` if there are more pairs than 32 bits count.
   void assign(Index rows, std::span<Found> shares);
   void add_rows(Index count) { head_.resize(head_.size() + count, kNone); }
-  void add(Index row, Index partner) { add(row, std::span(&partner, 1)); }
+  void add(Index row, Index partner) {
+    const std::size_t at = added_.size();
+    added_.resize(at + 1);
+    added_[at] = {partner, head_[row]};
+    head_[row] = static_cast<Index>(at);
+  }
   void add(Index row, std::span<const Index> partners);
   void add(std::span<const Index> rows, Index partner);
 

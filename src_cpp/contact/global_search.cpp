@@ -100,6 +100,7 @@ struct ContactSearch::Cells {
   ExactPairs exact(const SurfaceView& s) const {
     return {s.nodes.data(), s.segments.data(), s.position.data(), buffer};
   }
+  void pair_renamed_segments(const SurfaceView& s, std::span<const Index> renamed);
   void pair_new_nodes(const SurfaceView& s, Index end);
   void pair_new_segments(const SurfaceView& s, Index end);
 
@@ -246,6 +247,27 @@ void ContactSearch::Cells::remember_names(const SurfaceView& s) {
   ends_then.assign(s.edges.begin(), s.edges.end());
 }
 
+/// They lie where they did: of the old nodes only their former corners are new to them.
+void ContactSearch::Cells::pair_renamed_segments(const SurfaceView& s, std::span<const Index> renamed) {
+  constexpr std::size_t kAhead = 8;
+  for (std::size_t i = 0; i < renamed.size(); ++i) {
+    const Index ahead = renamed[std::min(i + kAhead, renamed.size() - 1)], m = renamed[i];
+    if (ahead < segments) __builtin_prefetch(&corners_then[4 * static_cast<std::size_t>(ahead)], 1);
+    if (m >= segments) continue;
+    const Index* const corners = corners_of(s, m);
+    Index* const then = &corners_then[4 * static_cast<std::size_t>(m)];
+    for (unsigned differ = 15U & ~lane_bits(load4(corners) == load4(then), Int4{}); differ != 0;
+         differ &= differ - 1) {
+      const Index former = then[__builtin_ctz(differ)];
+      const Index row = former < static_cast<Index>(row_of_node.size()) ? row_of_node[former] : kNone;
+      if (row == kNone || names(corners, former) || !may_pair(s, former, corners[0])) continue;
+      node_segments.add(row, m);
+      touched_nodes.push_back(row);
+    }
+    std::copy_n(corners, 4, then);
+  }
+}
+
 /// With the old segments.
 void ContactSearch::Cells::pair_new_nodes(const SurfaceView& s, Index end) {
   hits_end.clear();
@@ -314,21 +336,7 @@ void ContactSearch::Cells::adaptive(const SurfaceView& s, std::span<const Index>
   const Index new_nodes = static_cast<Index>(s.nodes.size());
   const Index new_segments = static_cast<Index>(s.segments.size() / 4);
   const Index new_edges = static_cast<Index>(s.edges.size() / 2);
-  // A renamed segment lies where it did: of the old nodes only its former corners are new to it.
-  for (const Index m : renamed_segments) {
-    if (m >= segments) continue;
-    const Index* corners = corners_of(s, m);
-    for (int i = 0; i < 4; ++i) {
-      Index& then = corners_then[4 * static_cast<std::size_t>(m) + i];
-      if (then == corners[i]) continue;
-      const Index row = then < static_cast<Index>(row_of_node.size()) ? row_of_node[then] : kNone;
-      if (row != kNone && !names(corners, then) && may_pair(s, then, corners[0])) {
-        node_segments.add(row, m);
-        touched_nodes.push_back(row);
-      }
-      then = corners[i];
-    }
-  }
+  pair_renamed_segments(s, renamed_segments);
 
   node_segments.add_rows(new_nodes - nodes);
   if (row_of_node.size() < s.position.size() / 3) row_of_node.resize(s.position.size() / 3, kNone);
