@@ -9,7 +9,7 @@ namespace cdfp::CDFP_ISA {
 /// Takes whatever overlaps.
 struct NoDoubt {
   CDFP_ALWAYS_INLINE Wide::Bits sure(const std::uint16_t*, std::size_t) const { return ~Wide::Bits{0}; }
-  CDFP_ALWAYS_INLINE Wide::Bits sure_eight(const std::uint16_t*, std::size_t) const { return ~Wide::Bits{0}; }
+  CDFP_ALWAYS_INLINE Wide::Bits sure_sixteen(const std::uint16_t*) const { return ~Wide::Bits{0}; }
   CDFP_ALWAYS_INLINE bool passes(Index) const { return true; }
 };
 
@@ -39,12 +39,17 @@ struct CellQuery {
   template <class Filter>
   CDFP_ALWAYS_INLINE void look_at_late(Index block, const Filter& filter) {
     const LateEntries<kBoxes>& late = cells.late[static_cast<std::size_t>(block)];
-    Wide::Bits bits = query.overlap_eight(late.places.data(), 8) & (0xFFU >> (8 - cells.links[block].count));
+    const std::uint16_t* const places = late.places.data();
+    Wide::Bits bits = query.overlap_sixteen(places) & (0xFFFFU >> (16 - cells.links[block].count));
     if (bits == 0) return;
-    filter(late.places.data(), 8, bits);
-    settle(late.ids.data(), bits & ~doubt.sure_eight(late.places.data(), 8), bits);
+    filter(places, 16, bits);
+    settle(late.ids.data(), bits & ~doubt.sure_sixteen(places), bits);
     if (!has_room()) return;
-    Wide::pick_eight(late.ids.data(), bits, found.ids + found.count);
+    take_eight(late.ids.data() + 8, bits >> 8);
+    take_eight(late.ids.data(), bits & 0xFFU);
+  }
+  CDFP_ALWAYS_INLINE void take_eight(const Index* ids, Wide::Bits bits) {
+    Wide::pick_eight(ids, bits, found.ids + found.count);
     found.count += static_cast<std::size_t>(__builtin_popcount(bits));
   }
   CDFP_ALWAYS_INLINE void settle(const Index* ids, Wide::Bits doubtful, Wide::Bits& bits) {
@@ -63,10 +68,13 @@ struct CellQuery {
     }
   }
   CDFP_ALWAYS_INLINE bool has_room() {
-    if (found.count + Wide::kLanes <= found.room) return true;
+    if (found.count + kMostAtOnce <= found.room) return true;
     found.count = found.room + 1;
     return false;
   }
+
+ private:
+  static constexpr std::size_t kMostAtOnce = 32;
 };
 
 template <bool kBoxes>

@@ -55,13 +55,13 @@ class CellTable {
 
   void insert(const Place& place, Index id) {
     Index& head = group_late_[layout_.slot(lattice()(low_of(place))) / kGroup];
-    if (head == kNone || links_[head].count == 8) {
+    if (head == kNone || links_[head].count == 16) {
       links_.push_back({head, 0});
       late_.resize(links_.size());
       head = static_cast<Index>(links_.size()) - 1;
     }
     const std::uint32_t at = links_[head].count++;
-    put(place, &late_[head].places[at], 8);
+    put(place, &late_[head].places[at], 16);
     late_[head].ids[at] = id;
     ++added_;
   }

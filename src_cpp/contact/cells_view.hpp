@@ -14,17 +14,17 @@ namespace cdfp {
 template <bool kBoxes>
 inline constexpr std::size_t kFields = kBoxes ? 6 : 3;
 
-/// Eight entries that came after the table was built, field after field.
+/// Sixteen entries that came after the table was built, field after field.
 template <bool kBoxes>
-struct alignas(16) LateEntries {
-  std::array<std::uint16_t, 8 * kFields<kBoxes>> places;
-  std::array<Index, 8> ids;
+struct alignas(32) LateEntries {
+  std::array<std::uint16_t, 16 * kFields<kBoxes>> places;
+  std::array<Index, 16> ids;
 };
 template <bool kBoxes>
 using LateList = GrowingList<LateEntries<kBoxes>, 6>;
 struct LateLink {
   Index next;
-  std::uint32_t count;  ///< of the eight
+  std::uint32_t count;  ///< of the sixteen
 };
 
 /// Arrays of entries may be read `kSpare` past their end.

@@ -172,8 +172,8 @@ struct SegmentDoubt {
   CDFP_ALWAYS_INLINE Wide::Bits sure(const std::uint16_t* places, std::size_t stride) const {
     return tells ? query.hold(places, stride) : 0;
   }
-  CDFP_ALWAYS_INLINE Wide::Bits sure_eight(const std::uint16_t* places, std::size_t stride) const {
-    return tells ? query.hold_eight(places, stride) : 0;
+  CDFP_ALWAYS_INLINE Wide::Bits sure_sixteen(const std::uint16_t* places) const {
+    return tells ? query.hold_sixteen(places) : 0;
   }
   CDFP_ALWAYS_INLINE bool passes(Index segment) const {
     const Index* of = exact.corners + 4 * static_cast<std::size_t>(segment);
@@ -202,8 +202,8 @@ struct RowDoubt {
   CDFP_ALWAYS_INLINE Wide::Bits sure(const std::uint16_t* places, std::size_t stride) const {
     return tells ? within.overlap(places, stride) : 0;
   }
-  CDFP_ALWAYS_INLINE Wide::Bits sure_eight(const std::uint16_t* places, std::size_t stride) const {
-    return tells ? within.overlap_eight(places, stride) : 0;
+  CDFP_ALWAYS_INLINE Wide::Bits sure_sixteen(const std::uint16_t* places) const {
+    return tells ? within.overlap_sixteen(places) : 0;
   }
   CDFP_ALWAYS_INLINE bool passes(Index row) const {
     return box.holds(Place(exact.position + 3 * static_cast<std::size_t>(exact.nodes[row])), 0);

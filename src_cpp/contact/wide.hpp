@@ -43,15 +43,13 @@ struct Wide {
       }
       return bits;
     }
-    CDFP_ALWAYS_INLINE Bits overlap_eight(const std::uint16_t* places, std::size_t stride) const {
-      const auto load = [&](std::size_t field) {
-        return _mm_loadu_si128(reinterpret_cast<const __m128i*>(places + field * stride));
-      };
-      __mmask8 bits = 0xFF;
+    CDFP_ALWAYS_INLINE Bits overlap_sixteen(const std::uint16_t* places) const {
+      __mmask16 bits = 0xFFFF;
       for (std::size_t d = 0; d < 3; ++d) {
-        const __m128i above = _mm_sub_epi16(load(d), _mm512_castsi512_si128(low[d]));
-        const __m128i most = _mm512_castsi512_si128(extent[d]);
-        bits = _mm_mask_cmple_epu16_mask(bits, above, kBoxes ? _mm_adds_epu16(most, load(3 + d)) : most);
+        const __m256i above = _mm256_sub_epi16(load_sixteen(places, d), _mm512_castsi512_si256(low[d]));
+        const __m256i most = _mm512_castsi512_si256(extent[d]);
+        const __m256i reach = kBoxes ? _mm256_adds_epu16(most, load_sixteen(places, 3 + d)) : most;
+        bits = _mm256_mask_cmple_epu16_mask(bits, above, reach);
       }
       return bits;
     }
@@ -66,17 +64,20 @@ struct Wide {
       }
       return bits;
     }
-    CDFP_ALWAYS_INLINE Bits hold_eight(const std::uint16_t* places, std::size_t stride) const {
-      const auto load = [&](std::size_t field) {
-        return _mm_loadu_si128(reinterpret_cast<const __m128i*>(places + field * stride));
-      };
-      __mmask8 bits = 0xFF;
+    CDFP_ALWAYS_INLINE Bits hold_sixteen(const std::uint16_t* places) const {
+      __mmask16 bits = 0xFFFF;
       for (std::size_t d = 0; d < 3; ++d) {
-        const __m128i at = _mm_sub_epi16(load(d), _mm512_castsi512_si128(low[d]));
-        bits = _mm_mask_cmplt_epu16_mask(bits, _mm_sub_epi16(at, _mm_set1_epi16(2)),
-                                         _mm_subs_epu16(load(3 + d), _mm_set1_epi16(3)));
+        const __m256i at = _mm256_sub_epi16(load_sixteen(places, d), _mm512_castsi512_si256(low[d]));
+        const __m256i room = load_sixteen(places, 3 + d);
+        bits = _mm256_mask_cmplt_epu16_mask(bits, _mm256_sub_epi16(at, _mm256_set1_epi16(2)),
+                                            _mm256_subs_epu16(room, _mm256_set1_epi16(3)));
       }
       return bits;
+    }
+
+   private:
+    CDFP_ALWAYS_INLINE static __m256i load_sixteen(const std::uint16_t* places, std::size_t field) {
+      return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(places + 16 * field));
     }
   };
   /// The corners of a segment.
@@ -141,35 +142,20 @@ struct Wide {
       }
       return bits_of(all);
     }
-    CDFP_ALWAYS_INLINE Bits overlap_eight(const std::uint16_t* places, std::size_t stride) const {
-      const auto load = [&](std::size_t field) {
-        return _mm_loadu_si128(reinterpret_cast<const __m128i*>(places + field * stride));
-      };
-      __m128i all = _mm_set1_epi16(-1);
-      for (std::size_t d = 0; d < 3; ++d) {
-        const __m128i above = _mm_sub_epi16(load(d), _mm256_castsi256_si128(low[d]));
-        __m128i reach = _mm256_castsi256_si128(extent[d]);
-        if (kBoxes) reach = _mm_adds_epu16(reach, load(3 + d));
-        all = _mm_and_si128(all, _mm_cmpeq_epi16(_mm_min_epu16(above, reach), above));
-      }
-      return static_cast<Bits>(_mm_movemask_epi8(_mm_packs_epi16(all, _mm_setzero_si128())));
-    }
+    CDFP_ALWAYS_INLINE Bits overlap_sixteen(const std::uint16_t* places) const { return overlap(places, 16); }
     CDFP_ALWAYS_INLINE Bits hold(const std::uint16_t* places, std::size_t stride) const {
-      return hold_eight(places, stride) | hold_eight(places + 8, stride) << 8;
-    }
-    CDFP_ALWAYS_INLINE Bits hold_eight(const std::uint16_t* places, std::size_t stride) const {
       const auto load = [&](std::size_t field) {
-        return _mm_loadu_si128(reinterpret_cast<const __m128i*>(places + field * stride));
+        return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(places + field * stride));
       };
-      __m128i any = _mm_setzero_si128();
+      __m256i any = _mm256_setzero_si256();
       for (std::size_t d = 0; d < 3; ++d) {
-        const __m128i at = _mm_sub_epi16(load(d), _mm256_castsi256_si128(low[d]));
-        const __m128i past = _mm_sub_epi16(at, _mm_set1_epi16(2));
-        const __m128i room = _mm_subs_epu16(load(3 + d), _mm_set1_epi16(3));
-        any = _mm_or_si128(any, _mm_cmpeq_epi16(_mm_max_epu16(past, room), past));  // past >= room
+        const __m256i past = _mm256_sub_epi16(_mm256_sub_epi16(load(d), low[d]), _mm256_set1_epi16(2));
+        const __m256i room = _mm256_subs_epu16(load(3 + d), _mm256_set1_epi16(3));
+        any = _mm256_or_si256(any, _mm256_cmpeq_epi16(_mm256_max_epu16(past, room), past));  // past >= room
       }
-      return ~static_cast<Bits>(_mm_movemask_epi8(_mm_packs_epi16(any, _mm_setzero_si128()))) & 0xFFU;
+      return ~bits_of(any) & 0xFFFFU;
     }
+    CDFP_ALWAYS_INLINE Bits hold_sixteen(const std::uint16_t* places) const { return hold(places, 16); }
   };
   struct Corners {
     __m256i corner[4];
@@ -236,8 +222,8 @@ struct Wide {
       }
       return lane_bits(all);
     }
-    CDFP_ALWAYS_INLINE Bits overlap_eight(const std::uint16_t* places, std::size_t stride) const {
-      return overlap(places, stride);
+    CDFP_ALWAYS_INLINE Bits overlap_sixteen(const std::uint16_t* places) const {
+      return overlap(places, 16) | overlap(places + 8, 16) << 8;
     }
     CDFP_ALWAYS_INLINE Bits hold(const std::uint16_t* places, std::size_t stride) const {
       Truth8 all{};
@@ -248,8 +234,8 @@ struct Wide {
       }
       return lane_bits(all);
     }
-    CDFP_ALWAYS_INLINE Bits hold_eight(const std::uint16_t* places, std::size_t stride) const {
-      return hold(places, stride);
+    CDFP_ALWAYS_INLINE Bits hold_sixteen(const std::uint16_t* places) const {
+      return hold(places, 16) | hold(places + 8, 16) << 8;
     }
   };
   struct Corners {
