@@ -40,7 +40,7 @@ struct CellQuery {
   CDFP_ALWAYS_INLINE void look_at_late(Index block, const Filter& filter) {
     const LateEntries<kBoxes>& late = cells.late[static_cast<std::size_t>(block)];
     const std::uint16_t* const places = late.places.data();
-    Wide::Bits bits = query.overlap_sixteen(places) & (0xFFFFU >> (16 - cells.links[block].count));
+    Wide::Bits bits = query.overlap_sixteen(places, 16) & (0xFFFFU >> (16 - cells.links[block].count));
     if (bits == 0) return;
     filter(places, 16, bits);
     settle(late.ids.data(), bits & ~doubt.sure_sixteen(places), bits);

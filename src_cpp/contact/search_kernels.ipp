@@ -45,11 +45,17 @@ struct Finder {
   template <class Filter>
   CDFP_ALWAYS_INLINE void scan(std::uint32_t at, std::uint32_t end, const Filter& filter) {
     for (; at < end; at += Wide::kLanes) {
-      Wide::Bits bits = query.overlap(job.places + at, job.stride);
       const std::uint32_t left = end - at;
-      if (left < Wide::kLanes) bits &= (Wide::Bits{1} << left) - 1;
-      if (bits == 0) continue;
-      bits &= ~own.among(job.nodes + at);
+      Wide::Bits bits;
+      if (Wide::kLanes > 16 && left <= 16) {
+        bits = query.overlap_sixteen(job.places + at, job.stride) & (0xFFFFU >> (16 - left));
+        bits &= ~own.among_sixteen(job.nodes + at);
+      } else {
+        bits = query.overlap(job.places + at, job.stride);
+        if (left < Wide::kLanes) bits &= (Wide::Bits{1} << left) - 1;
+        if (bits == 0) continue;
+        bits &= ~own.among(job.nodes + at);
+      }
       if (bits == 0) continue;
       filter(at, bits);
       doubt(at, bits);
@@ -203,7 +209,7 @@ struct RowDoubt {
     return tells ? within.overlap(places, stride) : 0;
   }
   CDFP_ALWAYS_INLINE Wide::Bits sure_sixteen(const std::uint16_t* places) const {
-    return tells ? within.overlap_sixteen(places) : 0;
+    return tells ? within.overlap_sixteen(places, 16) : 0;
   }
   CDFP_ALWAYS_INLINE bool passes(Index row) const {
     return box.holds(Place(exact.position + 3 * static_cast<std::size_t>(exact.nodes[row])), 0);

@@ -39,17 +39,19 @@ struct Wide {
         // Saturated, it reaches everywhere.
         const __m512i reach =
             kBoxes ? _mm512_adds_epu16(extent[d], _mm512_loadu_si512(places + (3 + d) * stride)) : extent[d];
-        bits = _mm512_mask_cmple_epu16_mask(bits, _mm512_sub_epi16(at, low[d]), reach);
+        bits &= _mm512_cmple_epu16_mask(_mm512_sub_epi16(at, low[d]), reach);
       }
       return bits;
     }
-    CDFP_ALWAYS_INLINE Bits overlap_sixteen(const std::uint16_t* places) const {
+    CDFP_ALWAYS_INLINE Bits overlap_sixteen(const std::uint16_t* places, std::size_t stride) const {
       __mmask16 bits = 0xFFFF;
       for (std::size_t d = 0; d < 3; ++d) {
-        const __m256i above = _mm256_sub_epi16(load_sixteen(places, d), _mm512_castsi512_si256(low[d]));
+        const __m256i at = load_sixteen(places + d * stride);
+        const __m256i above = _mm256_sub_epi16(at, _mm512_castsi512_si256(low[d]));
         const __m256i most = _mm512_castsi512_si256(extent[d]);
-        const __m256i reach = kBoxes ? _mm256_adds_epu16(most, load_sixteen(places, 3 + d)) : most;
-        bits = _mm256_mask_cmple_epu16_mask(bits, above, reach);
+        const __m256i reach =
+            kBoxes ? _mm256_adds_epu16(most, load_sixteen(places + (3 + d) * stride)) : most;
+        bits &= _mm256_cmple_epu16_mask(above, reach);
       }
       return bits;
     }
@@ -67,8 +69,8 @@ struct Wide {
     CDFP_ALWAYS_INLINE Bits hold_sixteen(const std::uint16_t* places) const {
       __mmask16 bits = 0xFFFF;
       for (std::size_t d = 0; d < 3; ++d) {
-        const __m256i at = _mm256_sub_epi16(load_sixteen(places, d), _mm512_castsi512_si256(low[d]));
-        const __m256i room = load_sixteen(places, 3 + d);
+        const __m256i at = _mm256_sub_epi16(load_sixteen(places + 16 * d), _mm512_castsi512_si256(low[d]));
+        const __m256i room = load_sixteen(places + 16 * (3 + d));
         bits = _mm256_mask_cmplt_epu16_mask(bits, _mm256_sub_epi16(at, _mm256_set1_epi16(2)),
                                             _mm256_subs_epu16(room, _mm256_set1_epi16(3)));
       }
@@ -76,8 +78,8 @@ struct Wide {
     }
 
    private:
-    CDFP_ALWAYS_INLINE static __m256i load_sixteen(const std::uint16_t* places, std::size_t field) {
-      return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(places + 16 * field));
+    CDFP_ALWAYS_INLINE static __m256i load_sixteen(const std::uint16_t* places) {
+      return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(places));
     }
   };
   /// The corners of a segment.
@@ -94,6 +96,12 @@ struct Wide {
         of_last |= _mm512_cmpeq_epi32_mask(last, corner[i]);
       }
       return of_first | of_last << 16;
+    }
+    CDFP_ALWAYS_INLINE Bits among_sixteen(const Index* nodes) const {
+      const __m512i sixteen = _mm512_loadu_si512(nodes);
+      Bits of_these = 0;
+      for (const __m512i& c : corner) of_these |= _mm512_cmpeq_epi32_mask(sixteen, c);
+      return of_these;
     }
   };
   /// Those whose bits are set, in order; writes up to `kLanes`.
@@ -142,7 +150,9 @@ struct Wide {
       }
       return bits_of(all);
     }
-    CDFP_ALWAYS_INLINE Bits overlap_sixteen(const std::uint16_t* places) const { return overlap(places, 16); }
+    CDFP_ALWAYS_INLINE Bits overlap_sixteen(const std::uint16_t* places, std::size_t stride) const {
+      return overlap(places, stride);
+    }
     CDFP_ALWAYS_INLINE Bits hold(const std::uint16_t* places, std::size_t stride) const {
       const auto load = [&](std::size_t field) {
         return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(places + field * stride));
@@ -171,6 +181,7 @@ struct Wide {
       for (int i = 1; i < 4; ++i) any = _mm256_or_si256(any, _mm256_cmpeq_epi32(eight, corner[i]));
       return static_cast<Bits>(_mm256_movemask_ps(_mm256_castsi256_ps(any)));
     }
+    CDFP_ALWAYS_INLINE Bits among_sixteen(const Index* nodes) const { return among(nodes); }
   };
   CDFP_ALWAYS_INLINE static void pick(const Index* ids, Bits bits, Index* to) {
     const Bits first = bits & 0xFFU;
@@ -222,8 +233,8 @@ struct Wide {
       }
       return lane_bits(all);
     }
-    CDFP_ALWAYS_INLINE Bits overlap_sixteen(const std::uint16_t* places) const {
-      return overlap(places, 16) | overlap(places + 8, 16) << 8;
+    CDFP_ALWAYS_INLINE Bits overlap_sixteen(const std::uint16_t* places, std::size_t stride) const {
+      return overlap(places, stride) | overlap(places + 8, stride) << 8;
     }
     CDFP_ALWAYS_INLINE Bits hold(const std::uint16_t* places, std::size_t stride) const {
       Truth8 all{};
@@ -248,6 +259,9 @@ struct Wide {
       Int4 of_first{}, of_last{};
       for (int i = 0; i < 4; ++i) of_first |= first == corner[i], of_last |= last == corner[i];
       return lane_bits(of_first, of_last);
+    }
+    CDFP_ALWAYS_INLINE Bits among_sixteen(const Index* nodes) const {
+      return among(nodes) | among(nodes + 8) << 8;
     }
   };
   CDFP_ALWAYS_INLINE static void pick(const Index* ids, Bits bits, Index* to) {
