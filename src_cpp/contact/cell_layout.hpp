@@ -42,20 +42,11 @@ class Lattice {
     const Float4 steps = greater(x * per_step_ - first_, Float4{});
     return __builtin_convertvector(lesser(steps, last_), Int4);
   }
-  /// Lowest and highest step of what is in a box beyond doubt, whatever was rounded; past the last if nothing
-  /// is. `border`: so many of the outermost steps are in doubt.
-  struct Range {
-    Int4 low, high;
-  };
-  CDFP_ALWAYS_INLINE Range within(const RoughBox& box, float border) const {
-    constexpr float kDoubt = 2;
-    const Float4 low = greater(box.low * per_step_ - first_ + kDoubt, border - Float4{});
-    const Float4 high = lesser(box.high * per_step_ - first_ - kDoubt, last_ - border);
-    const Float4 past = last_ + 1;
-    return {__builtin_convertvector(high < low ? past : low, Int4),
-            __builtin_convertvector(high < low ? past : high, Int4)};
-  }
   Int4 last() const { return __builtin_convertvector(last_, Int4); }
+  /// The same in parts: of max((x * per_step() - first()), 0), at most last_step(), what is whole.
+  CDFP_ALWAYS_INLINE const Float4& per_step() const { return per_step_; }
+  CDFP_ALWAYS_INLINE const Float4& first() const { return first_; }
+  CDFP_ALWAYS_INLINE const Float4& last_step() const { return last_; }
 
  private:
   static constexpr float kFarthest = 1 << 23;  // single precision counts up to 2^24
@@ -108,6 +99,12 @@ class CellLayout {
   CDFP_ALWAYS_INLINE static bool is_row(std::uint16_t place, std::int32_t row) {
     return ((place >> kCellBits) - row) % kRowsTold == 0;
   }
+  /// Cells have no margin.
+  CDFP_ALWAYS_INLINE Int4 in_cells(Int4 place) const {
+    return lesser(greater(place - margin_, Int4{}), last_);
+  }
+  CDFP_ALWAYS_INLINE const Int4& margin() const { return margin_; }
+  CDFP_ALWAYS_INLINE const Int4& last_in_cells() const { return last_; }
   CDFP_ALWAYS_INLINE std::uint32_t slot(Int4 of_lattice) const {
     const Int4 place = in_cells(of_lattice);
     return ((static_cast<std::uint32_t>(place[0]) >> kSliceBits) +
@@ -121,7 +118,12 @@ class CellLayout {
   template <class Scan, class ScanRow, class Everything>
   CDFP_ALWAYS_INLINE void visit(Int4 from, Int4 to, std::size_t entities, const Scan& scan,
                                 const ScanRow& scan_row, const Everything& everything) const {
-    const Int4 low = in_cells(from), high = in_cells(to);
+    visit_cells(in_cells(from), in_cells(to), entities, scan, scan_row, everything);
+  }
+  /// The same without the margin.
+  template <class Scan, class ScanRow, class Everything>
+  CDFP_ALWAYS_INLINE void visit_cells(Int4 low, Int4 high, std::size_t entities, const Scan& scan,
+                                      const ScanRow& scan_row, const Everything& everything) const {
     const Int4 first_cell = low >> kCellBits, last_cell = high >> kCellBits;
     const auto x0 = static_cast<std::uint32_t>(low[0] >> kSliceBits);
     const std::uint32_t length = static_cast<std::uint32_t>(high[0] >> kSliceBits) - x0 + 1;
@@ -154,11 +156,6 @@ class CellLayout {
   static constexpr std::size_t kSlicesAnEntity = 2;
   /// Steps outside of space that are told apart, so that a box that reaches beyond surely holds its border.
   static constexpr std::int32_t kMargin = 4;
-
-  /// Cells have no margin.
-  CDFP_ALWAYS_INLINE Int4 in_cells(Int4 place) const {
-    return lesser(greater(place - margin_, Int4{}), last_);
-  }
 
   Lattice lattice_;
   Int4 margin_{}, last_{};

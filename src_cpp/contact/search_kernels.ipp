@@ -4,6 +4,7 @@
 
 #include "contact/cell_queries.hpp"
 #include "contact/exact_place.hpp"
+#include "contact/reach.hpp"
 #include "contact/search_kernels.hpp"
 #include "contact/wide.hpp"
 
@@ -15,16 +16,13 @@ namespace CDFP_ISA {
 struct Finder {
   const NodePairs& job;
   const Index* corners;
-  const RoughBox& box;
   FoundIds& found;
   Wide::Query<false> query;
   Wide::Corners own;
-  Wide::Query<false> within;
-  bool has_within = false;
 
-  CDFP_ALWAYS_INLINE Finder(const NodePairs& pairs, const Index* of_segment, const RoughBox& grown, Int4 low,
-                            Int4 high, FoundIds& rows)
-      : job(pairs), corners(of_segment), box(grown), found(rows), query(low, high), own(of_segment) {}
+  CDFP_ALWAYS_INLINE Finder(const NodePairs& pairs, const Index* of_segment, const Reach& reach,
+                            FoundIds& rows)
+      : job(pairs), corners(of_segment), found(rows), query(reach.low, reach.high), own(of_segment) {}
 
   CDFP_ALWAYS_INLINE bool same_group(Index node) const {
     return job.groups[node] >= 0 && job.groups[node] == job.groups[corners[0]];
@@ -68,12 +66,8 @@ struct Finder {
     }
   }
   CDFP_ALWAYS_INLINE void doubt(std::uint32_t at, Wide::Bits& bits) {
-    if (job.layout.tells() && !has_within) {
-      const Lattice::Range sure = job.layout.lattice().within(box, 0);
-      within = Wide::Query<false>(sure.low, sure.high);
-      has_within = true;
-    }
-    Wide::Bits doubtful = has_within ? bits & ~within.overlap(job.places + at, job.stride) : bits;
+    Wide::Bits doubtful = bits;
+    if (job.layout.tells()) doubtful &= ~query.well_inside(job.places + at, job.stride);
     for (; doubtful != 0; doubtful &= doubtful - 1) {
       if (!holds(job.nodes[at + __builtin_ctz(doubtful)])) bits &= ~(doubtful & -doubtful);
     }
@@ -90,14 +84,15 @@ std::int64_t pair_nodes(const NodePairs& pairs, std::int64_t begin, std::int64_t
   // Copies, which nothing that is written can alias.
   const NodePairs job = pairs;
   FoundIds found = found_ids;
+  const Reaches reaches(job.layout, job.grow);
   const auto any = [](std::uint32_t, Wide::Bits&) {};
   for (std::int64_t m = begin; m < end; ++m) {
     const std::size_t before = found.count;
-    const RoughBox box = grown(job.boxes[m], job.grow);
-    const Int4 low = job.layout.lattice()(box.low), high = job.layout.lattice()(box.high);
-    Finder finder(job, job.corners + 4 * m, box, low, high, found);
-    job.layout.visit(
-        low, high, job.points,
+    RoughBox box = job.boxes[m];
+    const Reach reach = reaches(box);
+    Finder finder(job, job.corners + 4 * m, reach, found);
+    job.layout.visit_cells(
+        reach.from, reach.to, job.points,
         [&](std::uint32_t from, std::uint32_t to) { finder.scan(job.first[from], job.first[to], any); },
         [&](std::uint32_t from, std::uint32_t to, std::int32_t y, std::int32_t z) {
           finder.scan(job.first[from], job.first[to], [&](std::uint32_t at, Wide::Bits& bits) {
@@ -176,10 +171,10 @@ struct SegmentDoubt {
   bool tells;
 
   CDFP_ALWAYS_INLINE Wide::Bits sure(const std::uint16_t* places, std::size_t stride) const {
-    return tells ? query.hold(places, stride) : 0;
+    return tells ? query.well_inside(places, stride) : 0;
   }
   CDFP_ALWAYS_INLINE Wide::Bits sure_sixteen(const std::uint16_t* places) const {
-    return tells ? query.hold_sixteen(places) : 0;
+    return tells ? query.well_inside_sixteen(places) : 0;
   }
   CDFP_ALWAYS_INLINE bool passes(Index segment) const {
     const Index* of = exact.corners + 4 * static_cast<std::size_t>(segment);
@@ -201,15 +196,15 @@ void find_segments(const CellsView<true>& cells, const Float4& low, const Float4
 
 struct RowDoubt {
   const ExactPairs& exact;
-  Wide::Query<false> within;
+  Wide::Query<false> query;
   PlaceBox box;
   bool tells;
 
   CDFP_ALWAYS_INLINE Wide::Bits sure(const std::uint16_t* places, std::size_t stride) const {
-    return tells ? within.overlap(places, stride) : 0;
+    return tells ? query.well_inside(places, stride) : 0;
   }
   CDFP_ALWAYS_INLINE Wide::Bits sure_sixteen(const std::uint16_t* places) const {
-    return tells ? within.overlap_sixteen(places, 16) : 0;
+    return tells ? query.well_inside_sixteen(places) : 0;
   }
   CDFP_ALWAYS_INLINE bool passes(Index row) const {
     return box.holds(Place(exact.position + 3 * static_cast<std::size_t>(exact.nodes[row])), 0);
@@ -217,9 +212,9 @@ struct RowDoubt {
 };
 void find_rows(const CellsView<false>& cells, const RoughBox& box, const ExactPairs& exact, const double* low,
                const double* high, FoundIds& found) {
-  // What left space since is on the border.
-  const Lattice::Range sure = cells.layout.lattice().within(box, 1);
-  const RowDoubt doubt{exact, {sure.low, sure.high}, {Place(low), Place(high)}, cells.layout.tells()};
+  const Lattice& lattice = cells.layout.lattice();
+  const RowDoubt doubt{
+      exact, {lattice(box.low), lattice(box.high)}, {Place(low), Place(high)}, cells.layout.tells()};
   find(cells, box.low, box, doubt, found);
 }
 

@@ -27,10 +27,8 @@ struct Wide {
     Query() = default;
     CDFP_ALWAYS_INLINE Query(Int4 l, Int4 h) {
       const Int4 e = lesser(h - l, 65535 - Int4{});
-      for (int d = 0; d < 3; ++d) {
-        low[d] = _mm512_set1_epi16(static_cast<std::int16_t>(l[d]));
-        extent[d] = _mm512_set1_epi16(static_cast<std::int16_t>(e[d]));
-      }
+      low[0] = low_words<0>(l), low[1] = low_words<1>(l), low[2] = low_words<2>(l);
+      extent[0] = low_words<0>(e), extent[1] = low_words<1>(e), extent[2] = low_words<2>(e);
     }
     CDFP_ALWAYS_INLINE Bits overlap(const std::uint16_t* places, std::size_t stride) const {
       Bits bits = ~Bits{0};
@@ -55,22 +53,22 @@ struct Wide {
       }
       return bits;
     }
-    /// Boxes that hold the place `low` two steps from their sides.
-    CDFP_ALWAYS_INLINE Bits hold(const std::uint16_t* places, std::size_t stride) const {
+    /// Points that are two steps inside of it, or boxes that it is as far inside of, if it is one place.
+    CDFP_ALWAYS_INLINE Bits well_inside(const std::uint16_t* places, std::size_t stride) const {
       Bits bits = ~Bits{0};
       for (std::size_t d = 0; d < 3; ++d) {
         const __m512i at = _mm512_sub_epi16(_mm512_loadu_si512(places + d * stride), low[d]);
-        const __m512i room = _mm512_loadu_si512(places + (3 + d) * stride);
-        bits = _mm512_mask_cmplt_epu16_mask(bits, _mm512_sub_epi16(at, _mm512_set1_epi16(2)),
-                                            _mm512_subs_epu16(room, _mm512_set1_epi16(3)));
+        const __m512i room = kBoxes ? _mm512_loadu_si512(places + (3 + d) * stride) : extent[d];
+        bits &= _mm512_cmplt_epu16_mask(_mm512_sub_epi16(at, _mm512_set1_epi16(2)),
+                                        _mm512_subs_epu16(room, _mm512_set1_epi16(3)));
       }
       return bits;
     }
-    CDFP_ALWAYS_INLINE Bits hold_sixteen(const std::uint16_t* places) const {
+    CDFP_ALWAYS_INLINE Bits well_inside_sixteen(const std::uint16_t* places) const {
       __mmask16 bits = 0xFFFF;
       for (std::size_t d = 0; d < 3; ++d) {
         const __m256i at = _mm256_sub_epi16(load_sixteen(places + 16 * d), _mm512_castsi512_si256(low[d]));
-        const __m256i room = load_sixteen(places + 16 * (3 + d));
+        const __m256i room = kBoxes ? load_sixteen(places + 16 * (3 + d)) : _mm512_castsi512_si256(extent[d]);
         bits = _mm256_mask_cmplt_epu16_mask(bits, _mm256_sub_epi16(at, _mm256_set1_epi16(2)),
                                             _mm256_subs_epu16(room, _mm256_set1_epi16(3)));
       }
@@ -78,6 +76,11 @@ struct Wide {
     }
 
    private:
+    /// The lower half of lane `kLane` everywhere.
+    template <int kLane>
+    CDFP_ALWAYS_INLINE static __m512i low_words(Int4 v) {
+      return _mm512_broadcastw_epi16(_mm_bsrli_si128(reinterpret_cast<__m128i>(v), 4 * kLane));
+    }
     CDFP_ALWAYS_INLINE static __m256i load_sixteen(const std::uint16_t* places) {
       return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(places));
     }
@@ -131,10 +134,8 @@ struct Wide {
     Query() = default;
     CDFP_ALWAYS_INLINE Query(Int4 l, Int4 h) {
       const Int4 e = lesser(h - l, 65535 - Int4{});
-      for (int d = 0; d < 3; ++d) {
-        low[d] = _mm256_set1_epi16(static_cast<std::int16_t>(l[d]));
-        extent[d] = _mm256_set1_epi16(static_cast<std::int16_t>(e[d]));
-      }
+      low[0] = low_words<0>(l), low[1] = low_words<1>(l), low[2] = low_words<2>(l);
+      extent[0] = low_words<0>(e), extent[1] = low_words<1>(e), extent[2] = low_words<2>(e);
     }
     CDFP_ALWAYS_INLINE Bits overlap(const std::uint16_t* places, std::size_t stride) const {
       __m256i all = _mm256_set1_epi16(-1);
@@ -153,19 +154,27 @@ struct Wide {
     CDFP_ALWAYS_INLINE Bits overlap_sixteen(const std::uint16_t* places, std::size_t stride) const {
       return overlap(places, stride);
     }
-    CDFP_ALWAYS_INLINE Bits hold(const std::uint16_t* places, std::size_t stride) const {
+    CDFP_ALWAYS_INLINE Bits well_inside(const std::uint16_t* places, std::size_t stride) const {
       const auto load = [&](std::size_t field) {
         return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(places + field * stride));
       };
       __m256i any = _mm256_setzero_si256();
       for (std::size_t d = 0; d < 3; ++d) {
         const __m256i past = _mm256_sub_epi16(_mm256_sub_epi16(load(d), low[d]), _mm256_set1_epi16(2));
-        const __m256i room = _mm256_subs_epu16(load(3 + d), _mm256_set1_epi16(3));
+        const __m256i room = _mm256_subs_epu16(kBoxes ? load(3 + d) : extent[d], _mm256_set1_epi16(3));
         any = _mm256_or_si256(any, _mm256_cmpeq_epi16(_mm256_max_epu16(past, room), past));  // past >= room
       }
       return ~bits_of(any) & 0xFFFFU;
     }
-    CDFP_ALWAYS_INLINE Bits hold_sixteen(const std::uint16_t* places) const { return hold(places, 16); }
+    CDFP_ALWAYS_INLINE Bits well_inside_sixteen(const std::uint16_t* places) const {
+      return well_inside(places, 16);
+    }
+
+   private:
+    template <int kLane>
+    CDFP_ALWAYS_INLINE static __m256i low_words(Int4 v) {
+      return _mm256_broadcastw_epi16(_mm_bsrli_si128(reinterpret_cast<__m128i>(v), 4 * kLane));
+    }
   };
   struct Corners {
     __m256i corner[4];
@@ -236,17 +245,18 @@ struct Wide {
     CDFP_ALWAYS_INLINE Bits overlap_sixteen(const std::uint16_t* places, std::size_t stride) const {
       return overlap(places, stride) | overlap(places + 8, stride) << 8;
     }
-    CDFP_ALWAYS_INLINE Bits hold(const std::uint16_t* places, std::size_t stride) const {
+    CDFP_ALWAYS_INLINE Bits well_inside(const std::uint16_t* places, std::size_t stride) const {
       Truth8 all{};
       all = ~all;
       for (std::size_t d = 0; d < 3; ++d) {
-        const Short8 at = load8(places + d * stride) - low[d], room = load8(places + (3 + d) * stride);
+        const Short8 at = load8(places + d * stride) - low[d],
+                     room = kBoxes ? load8(places + (3 + d) * stride) : extent[d];
         all &= (room > 3) & (static_cast<Short8>(at - 2) < static_cast<Short8>(room - 3));
       }
       return lane_bits(all);
     }
-    CDFP_ALWAYS_INLINE Bits hold_sixteen(const std::uint16_t* places) const {
-      return hold(places, 16) | hold(places + 8, 16) << 8;
+    CDFP_ALWAYS_INLINE Bits well_inside_sixteen(const std::uint16_t* places) const {
+      return well_inside(places, 16) | well_inside(places + 8, 16) << 8;
     }
   };
   struct Corners {
