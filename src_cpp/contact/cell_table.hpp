@@ -11,6 +11,7 @@
 #include "cdfp/types.hpp"
 #include "contact/cell_layout.hpp"
 #include "contact/cells_view.hpp"
+#include "contact/search_kernels.hpp"
 #include "core/lanes.hpp"
 
 namespace cdfp {
@@ -50,6 +51,20 @@ class CellTable {
       ids_[at] = ids[i];
       put(places[ids[i]], &places_[at], stride_);
     }
+    if (open) group_late_.assign(layout_.size() / kGroup, kNone);
+  }
+
+  /// Takes all points; `names[i]` becomes the node of the i-th point in the table.
+  void build(const SearchKernels& kernels, std::span<const Float4> points, std::span<const Index> nodes,
+             std::vector<Index>& names, bool open) {
+    sorted_ = points.size();
+    stride_ = sorted_ + kSpare;
+    slot_.resize(sorted_);
+    ids_.resize(stride_);
+    names.resize(stride_);
+    places_.resize(kFields * stride_);
+    kernels.sort_points({layout_, points.data(), nodes.data(), sorted_, slot_.data(), first_.data(),
+                         ids_.data(), names.data(), places_.data(), stride_});
     if (open) group_late_.assign(layout_.size() / kGroup, kNone);
   }
 

@@ -1,6 +1,5 @@
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "cdfp/contact.hpp"
 #include "cdfp/error.hpp"
@@ -52,7 +51,7 @@ struct ContactSearch::Cells {
   std::vector<Index> row_of_node, corners_then, ends_then;
 
   std::vector<Float4> points;
-  std::vector<Index> all_rows, names_in_cells;
+  std::vector<Index> names_in_cells;
   std::vector<RoughBox> boxes, edge_boxes, spaces;
   std::vector<double> lengths;          // sums over pieces
   std::vector<PairRows::Found> shares;  // by thread
@@ -132,8 +131,6 @@ RoughBox ContactSearch::Cells::place_nodes(const SurfaceView& s, const Threads& 
   origin = middle(s);
   rough = {Double2{origin[0], origin[1]}, Double2{origin[2], 0}};
   points.resize(s.nodes.size());
-  all_rows.resize(points.size());
-  std::iota(all_rows.begin(), all_rows.end(), 0);
   spaces.resize((nodes + kPiece - 1) / kPiece);
   threads.for_ranges(nodes, kPiece, [&](std::int64_t begin, std::int64_t end) {
     spaces[begin / kPiece] =
@@ -180,11 +177,9 @@ void ContactSearch::Cells::regular(const SurfaceView& s, const Threads& threads)
   place_segments(s, threads);
   const auto cell = static_cast<float>(length);
   node_cells.reset(space, 2 * cell, points.size());
-  node_cells.build(points, all_rows, open);
+  node_cells.build(kernels, points, s.nodes, names_in_cells, open);
 
   const float grow = static_cast<float>(buffer * (1 + 1e-6));
-  names_in_cells.resize(points.size() + CellTable<false>::kSpare);
-  for (std::size_t i = 0; i < points.size(); ++i) names_in_cells[i] = s.nodes[node_cells.ids()[i]];
   const NodePairs job{node_cells.layout(),
                       node_cells.first(),
                       node_cells.places(),

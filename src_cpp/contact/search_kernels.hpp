@@ -35,6 +35,20 @@ struct ExactPairs {
   double buffer;
 };
 
+/// Points on their way into a table of cells.
+struct PointSort {
+  const CellLayout& layout;
+  const Float4* points;
+  const Index* nodes;  ///< of the points
+  std::size_t count;
+  std::uint32_t* slot;    ///< of the points
+  std::uint32_t* first;   ///< zeros; then as in `CellsView`
+  Index* ids;             ///< which points they are, in the order of the table
+  Index* names;           ///< their nodes
+  std::uint16_t* places;  ///< along x, then y, then z
+  std::size_t stride;     ///< from one of them to the next
+};
+
 struct SearchKernels {
   /// Places of nodes [begin, end) about `origin`, and the box that holds them; at least one.
   RoughBox (*place_nodes)(const Index* nodes, const double* position, const double* origin,
@@ -42,6 +56,8 @@ struct SearchKernels {
   /// Boxes of segments [begin, end) about `origin`, and the sum of their mean lengths, sqrt(area).
   double (*place_segments)(const Index* corners, const double* position, const double* origin,
                            std::int64_t begin, std::int64_t end, RoughBox* boxes);
+  /// Orders points by slice, then as given.
+  void (*sort_points)(const PointSort& job);
   /// Segments from `begin` until `end` or until there is no more room, which is what it returns. `ends[i]`:
   /// where the rows of the i-th of them end.
   std::int64_t (*pair_nodes)(const NodePairs& job, std::int64_t begin, std::int64_t end, FoundIds& found,

@@ -160,6 +160,26 @@ RoughBox place_nodes(const Index* nodes, const double* position, const double* m
   return space;
 }
 
+void sort_points(const PointSort& sort) {
+  // A copy, which nothing that is written can alias.
+  const CellLayout layout = sort.layout;
+  for (std::size_t i = 0; i < sort.count; ++i) {
+    const std::uint32_t slot = layout.slot(layout.lattice()(sort.points[i]));
+    sort.slot[i] = slot;
+    ++sort.first[slot + 2];
+  }
+  std::uint32_t sum = 0;
+  for (std::uint32_t s = 0; s < layout.size(); ++s) sort.first[s + 2] = sum += sort.first[s + 2];
+  for (std::size_t i = 0; i < sort.count; ++i) {
+    const std::size_t at = sort.first[sort.slot[i] + 1]++;
+    sort.ids[at] = static_cast<Index>(i);
+    sort.names[at] = sort.nodes[i];
+    const auto place = reinterpret_cast<Short8>(layout.lattice()(sort.points[i]));
+    std::uint16_t* const to = sort.places + at;
+    to[0] = place[0], to[sort.stride] = place[2], to[2 * sort.stride] = place[4];
+  }
+}
+
 void find_boxes(const CellsView<true>& cells, const Float4& low, const RoughBox& box, FoundIds& found) {
   find(cells, low, box, NoDoubt{}, found);
 }
@@ -220,7 +240,8 @@ void find_rows(const CellsView<false>& cells, const RoughBox& box, const ExactPa
 
 }  // namespace CDFP_ISA
 
-const SearchKernels CDFP_SEARCH_KERNELS{CDFP_ISA::place_nodes, CDFP_ISA::place_segments, CDFP_ISA::pair_nodes,
-                                        CDFP_ISA::find_boxes,  CDFP_ISA::find_segments,  CDFP_ISA::find_rows};
+const SearchKernels CDFP_SEARCH_KERNELS{
+    CDFP_ISA::place_nodes, CDFP_ISA::place_segments, CDFP_ISA::sort_points, CDFP_ISA::pair_nodes,
+    CDFP_ISA::find_boxes,  CDFP_ISA::find_segments,  CDFP_ISA::find_rows};
 
 }  // namespace cdfp
