@@ -17,6 +17,36 @@ namespace cdfp {
 
 class Archive;
 
+/// A list that grows without moving what it holds, and keeps its room when it is cleared.
+template <class Item, std::size_t kBlockBits>
+class GrowingList {
+ public:
+  std::size_t size() const { return size_; }
+  void clear() { size_ = 0; }
+  void resize(std::size_t size) {
+    while (blocks_.size() << kBlockBits < size) blocks_.emplace_back(kBlock);
+    size_ = size;
+  }
+  Item& operator[](std::size_t i) { return blocks_[i >> kBlockBits][i & (kBlock - 1)]; }
+  [[gnu::always_inline]] const Item& operator[](std::size_t i) const {
+    return blocks_.data()[i >> kBlockBits].data()[i & (kBlock - 1)];
+  }
+  std::size_t memory() const { return blocks_.size() * kBlock * sizeof(Item); }
+  /// For the restart of a simulation.
+  template <class Stream>
+  void archive(Stream& a, const char* name) {
+    std::uint64_t size = size_;
+    a(name, size);
+    resize(size);
+    for (std::size_t first = 0; first < size; first += kBlock) a(name, blocks_[first >> kBlockBits]);
+  }
+
+ private:
+  static constexpr std::size_t kBlock = std::size_t{1} << kBlockBits;
+  std::vector<std::vector<Item>> blocks_;
+  std::size_t size_ = 0;
+};
+
 /// Pairs as compressed rows, with chains for what an adaptive search adds later.
 class PairRows {
  public:
@@ -45,12 +75,14 @@ class PairRows {
     void start(Index first, Index partners, Index rows);
     /// The rows of the next partners go to `room()`, up to `room_size()` of them.
     Index* room() { return rows_.data() + count_; }
-    std::size_t room_size() const { return rows_.size() - count_; }
+    std::size_t room_size() const {
+      return rows_.size() > count_ + kAhead ? rows_.size() - count_ - kAhead : 0;
+    }
     void make_room();
     /// `count` rows were written there; those of the i-th partner of them end at `ends[i]`.
     void took(std::size_t count, std::span<const Index> ends);
     void add(Index row) {
-      if (count_ == rows_.size()) make_room();
+      if (room_size() == 0) make_room();
       rows_[count_++] = row;
       ++row_counts_[row];
     }
@@ -61,6 +93,8 @@ class PairRows {
 
    private:
     friend class PairRows;
+    /// Rows whose place is asked for before it is written; as many may be read past the last.
+    static constexpr std::size_t kAhead = 128;
     Index first_ = 0, partners_ = 0;
     std::vector<Index> rows_;        // as long as its use so far; the first `count_` of them hold
     std::vector<Index> ends_;        // of the partners
@@ -72,10 +106,13 @@ class PairRows {
   void assign(Index rows, std::span<Found> shares);
   void add_rows(Index count) { head_.resize(head_.size() + count, kNone); }
   void add(Index row, Index partner) {
-    const Index next = head_[row];
-    head_[row] = static_cast<Index>(added_.size());
-    added_.push_back({partner, next});
+    const std::size_t at = added_.size();
+    added_.resize(at + 1);
+    added_[at] = {partner, head_[row]};
+    head_[row] = static_cast<Index>(at);
   }
+  void add(Index row, std::span<const Index> partners);
+  void add(std::span<const Index> rows, Index partner);
 
  private:
   Index sorted_rows() const { return static_cast<Index>(start_.size()) - 1; }
@@ -87,7 +124,7 @@ class PairRows {
     Index partner, next;
   };
   std::vector<Index> head_;
-  std::vector<Added> added_;
+  GrowingList<Added, 11> added_;
 };
 
 /// What a global search looks at. Entities keep their numbers; new ones are appended.

@@ -40,7 +40,6 @@ void SurfaceContact::archive(Archive& a) {
   a("contact.is_partner", s.is_partner);
   a("contact.active_segments", s.active_segments);
   a("contact.planes", s.planes);
-  a("contact.hits", s.hits);
   a("contact.edge_wake", s.edge_wake);
   a("contact.edge_has_pairs", s.edge_has_pairs);
   a("contact.active_edges", s.active_edges);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "contact/cell_table.hpp"
@@ -15,34 +16,33 @@ class BoxLevels {
  public:
   void reset(const RoughBox& space, double base) {
     space_ = space, base_ = static_cast<float>(base);
-    levels_.clear();
+    used_ = 0;
   }
   void build(std::span<const RoughBox> boxes, bool open) {
-    std::vector<std::vector<Index>> by_level;
+    for (std::vector<Index>& ids : by_level_) ids.clear();
+    std::size_t levels = 0;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       const std::size_t level = level_of(boxes[i]);
-      if (by_level.size() <= level) by_level.resize(level + 1);
-      by_level[level].push_back(static_cast<Index>(i));
+      if (by_level_.size() <= level) by_level_.resize(level + 1);
+      by_level_[level].push_back(static_cast<Index>(i));
+      levels = std::max(levels, level + 1);
     }
-    for (const std::vector<Index>& ids : by_level) {
-      make_level(ids.size());
-      levels_.back().build(boxes, ids, open);
+    while (used_ < levels) {
+      const std::vector<Index>& ids = by_level_[used_];
+      make_level(ids.size()).build(boxes, ids, open);
     }
   }
   void insert(const RoughBox& box, Index id) {
     const std::size_t level = level_of(box);
-    while (levels_.size() <= level) {
-      make_level(0);
-      levels_.back().build({}, {}, true);
-    }
+    while (used_ <= level) make_level(0).build({}, {}, true);
     levels_[level].insert(box, id);
   }
-  /// `report(id)` at most once for a box, and for every one that overlaps `box`.
-  template <class Report>
-  void visit(const RoughBox& box, Report&& report) const {
+  /// `look(cells, low)` into each level: the lowest corners of what overlaps `box` lie above `low`.
+  template <class Look>
+  void visit(const RoughBox& box, const Look& look) const {
     float length = base_;
-    for (const CellTable<true>& level : levels_) {
-      if (level.size() > 0) level.visit(box.low - 1.0001F * length, box, report);
+    for (const CellTable<true>& level : std::span(levels_).first(used_)) {
+      if (level.size() > 0) look(level.view(), box.low - 1.0001F * length);
       length *= 2;
     }
   }
@@ -57,6 +57,7 @@ class BoxLevels {
   std::size_t memory() const {
     std::size_t bytes = 0;
     for (const auto& level : levels_) bytes += level.memory();
+    for (const auto& ids : by_level_) bytes += ids.capacity() * sizeof(Index);
     return bytes;
   }
 
@@ -68,15 +69,19 @@ class BoxLevels {
     for (float length = base_; length < extent && level < 60; length *= 2) ++level;
     return level;
   }
-  void make_level(std::size_t boxes) {
-    const float length = std::ldexp(base_, static_cast<int>(levels_.size()));
-    levels_.emplace_back();
-    levels_.back().reset(space_, length, boxes);
+  CellTable<true>& make_level(std::size_t boxes) {
+    if (levels_.size() == used_) levels_.emplace_back();
+    CellTable<true>& level = levels_[used_];
+    level.reset(space_, std::ldexp(base_, static_cast<int>(used_)), boxes);
+    ++used_;
+    return level;
   }
 
   RoughBox space_{};
   float base_ = 1;
-  std::vector<CellTable<true>> levels_;
+  std::vector<CellTable<true>> levels_;  // the first `used_` of them; the others keep their room
+  std::size_t used_ = 0;
+  std::vector<std::vector<Index>> by_level_;
 };
 
 }  // namespace cdfp

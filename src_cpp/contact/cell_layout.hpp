@@ -25,35 +25,28 @@ CDFP_ALWAYS_INLINE RoughBox grown(const RoughBox& box, float by) {
   return {box.low - by - kUlp * low, box.high + by + kUlp * high};
 }
 
-/// Space in whole steps from its lowest corner; what lies outside counts to the border.
+/// Space in whole steps from `margin` steps before its lowest corner to as many past its highest; what lies
+/// further outside counts to the last of them.
 class Lattice {
  public:
   Lattice() = default;
-  Lattice(const RoughBox& space, float step) {
+  Lattice(const RoughBox& space, float step, float margin) {
     for (int d = 0; d < 3; ++d) {
       per_step_[d] = 1 / step;
-      first_[d] = std::floor(std::max(space.low[d] / step, -kFarthest));
-      last_[d] = std::floor(std::clamp(space.high[d] / step - first_[d], 0.0F, 2 * kFarthest - 1));
+      const float first = std::floor(std::max(space.low[d] / step, -kFarthest));
+      first_[d] = first - margin;
+      last_[d] = std::floor(std::clamp(space.high[d] / step - first, 0.0F, 2 * kFarthest - 1)) + 2 * margin;
     }
   }
   CDFP_ALWAYS_INLINE Int4 operator()(Float4 x) const {
     const Float4 steps = greater(x * per_step_ - first_, Float4{});
     return __builtin_convertvector(lesser(steps, last_), Int4);
   }
-  /// Lowest and highest step of what is in a box beyond doubt, whatever was rounded; past the last if nothing
-  /// is.
-  struct Range {
-    Int4 low, high;
-  };
-  CDFP_ALWAYS_INLINE Range within(const RoughBox& box) const {
-    constexpr float kDoubt = 2;
-    const Float4 low = greater(box.low * per_step_ - first_ + kDoubt, Float4{});
-    const Float4 high = lesser(box.high * per_step_ - first_ - kDoubt, last_);
-    const Float4 past = last_ + 1;
-    return {__builtin_convertvector(high < low ? past : low, Int4),
-            __builtin_convertvector(high < low ? past : high, Int4)};
-  }
   Int4 last() const { return __builtin_convertvector(last_, Int4); }
+  /// The same in parts: of max((x * per_step() - first()), 0), at most last_step(), what is whole.
+  CDFP_ALWAYS_INLINE const Float4& per_step() const { return per_step_; }
+  CDFP_ALWAYS_INLINE const Float4& first() const { return first_; }
+  CDFP_ALWAYS_INLINE const Float4& last_step() const { return last_; }
 
  private:
   static constexpr float kFarthest = 1 << 23;  // single precision counts up to 2^24
@@ -72,9 +65,10 @@ class CellLayout {
 
   CellLayout() = default;
   CellLayout(const RoughBox& space, float cell_length, std::size_t entities)
-      : lattice_(space, cell_length / kCell) {
-    const Int4 last = lattice_.last();
-    tells_ = std::max({last[0], last[1], last[2]}) < 65535;
+      : lattice_(space, cell_length / kCell, 0), last_(lattice_.last()) {
+    const Int4 last = last_;
+    const std::int32_t farthest = std::max({last[0], last[1], last[2]});
+    tells_ = farthest < 65535;
     const double slices = double((last[0] >> kSliceBits) + 1) * double((last[1] >> kCellBits) + 1) *
                           double((last[2] >> kCellBits) + 1);
     const std::size_t limit = std::max<std::size_t>(kSlicesAnEntity * entities, kShortest);
@@ -90,6 +84,10 @@ class CellLayout {
       row_stride_ = ((static_cast<std::uint32_t>(last[0]) >> kSliceBits) / kGroup + 1) * kGroup;
       layer_stride_ = row_stride_ * ((static_cast<std::uint32_t>(last[1]) >> kCellBits) + 1);
       size_ = layer_stride_ * ((static_cast<std::uint32_t>(last[2]) >> kCellBits) + 1);
+      if (farthest < 65535 - 2 * kMargin) {
+        lattice_ = Lattice(space, cell_length / kCell, kMargin);
+        margin_ = kMargin - Int4{};
+      }
     }
   }
   CDFP_ALWAYS_INLINE const Lattice& lattice() const { return lattice_; }
@@ -101,7 +99,14 @@ class CellLayout {
   CDFP_ALWAYS_INLINE static bool is_row(std::uint16_t place, std::int32_t row) {
     return ((place >> kCellBits) - row) % kRowsTold == 0;
   }
-  CDFP_ALWAYS_INLINE std::uint32_t slot(Int4 place) const {
+  /// Cells have no margin.
+  CDFP_ALWAYS_INLINE Int4 in_cells(Int4 place) const {
+    return lesser(greater(place - margin_, Int4{}), last_);
+  }
+  CDFP_ALWAYS_INLINE const Int4& margin() const { return margin_; }
+  CDFP_ALWAYS_INLINE const Int4& last_in_cells() const { return last_; }
+  CDFP_ALWAYS_INLINE std::uint32_t slot(Int4 of_lattice) const {
+    const Int4 place = in_cells(of_lattice);
     return ((static_cast<std::uint32_t>(place[0]) >> kSliceBits) +
             (static_cast<std::uint32_t>(place[1]) >> kCellBits) * row_stride_ +
             (static_cast<std::uint32_t>(place[2]) >> kCellBits) * layer_stride_) &
@@ -113,9 +118,15 @@ class CellLayout {
   template <class Scan, class ScanRow, class Everything>
   CDFP_ALWAYS_INLINE void visit(Int4 from, Int4 to, std::size_t entities, const Scan& scan,
                                 const ScanRow& scan_row, const Everything& everything) const {
-    const Int4 first_cell = from >> kCellBits, last_cell = to >> kCellBits;
-    const auto x0 = static_cast<std::uint32_t>(from[0] >> kSliceBits);
-    const std::uint32_t length = static_cast<std::uint32_t>(to[0] >> kSliceBits) - x0 + 1;
+    visit_cells(in_cells(from), in_cells(to), entities, scan, scan_row, everything);
+  }
+  /// The same without the margin.
+  template <class Scan, class ScanRow, class Everything>
+  CDFP_ALWAYS_INLINE void visit_cells(Int4 low, Int4 high, std::size_t entities, const Scan& scan,
+                                      const ScanRow& scan_row, const Everything& everything) const {
+    const Int4 first_cell = low >> kCellBits, last_cell = high >> kCellBits;
+    const auto x0 = static_cast<std::uint32_t>(low[0] >> kSliceBits);
+    const std::uint32_t length = static_cast<std::uint32_t>(high[0] >> kSliceBits) - x0 + 1;
     const std::int32_t y0 = first_cell[1], z0 = first_cell[2], y1 = last_cell[1], z1 = last_cell[2];
     const auto rows = static_cast<std::uint64_t>(y1 - y0 + 1) * static_cast<std::uint64_t>(z1 - z0 + 1);
     std::uint32_t layer =
@@ -143,8 +154,11 @@ class CellLayout {
  private:
   static constexpr std::size_t kShortest = 256;
   static constexpr std::size_t kSlicesAnEntity = 2;
+  /// Steps outside of space that are told apart, so that a box that reaches beyond surely holds its border.
+  static constexpr std::int32_t kMargin = 4;
 
   Lattice lattice_;
+  Int4 margin_{}, last_{};
   bool flat_ = false, tells_ = false;
   std::uint32_t mask_ = ~0u, row_stride_ = 1, layer_stride_ = 1, size_ = 0;
 };

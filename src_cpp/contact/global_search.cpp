@@ -1,6 +1,5 @@
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "cdfp/contact.hpp"
 #include "cdfp/error.hpp"
@@ -46,14 +45,16 @@ struct ContactSearch::Cells {
   BoxLevels segment_cells, edge_cells;
   PairRows node_segments, edge_edges;
   std::vector<Index> touched_nodes, touched_edges;
+  std::vector<Index> hits, rows_of_segment;  // of looks at the cells
+  std::vector<std::size_t> hits_end;
   // As the last call left them, for what a renamed entity was named before.
   std::vector<Index> row_of_node, corners_then, ends_then;
 
   std::vector<Float4> points;
-  std::vector<Index> all_rows, names_in_cells;
+  std::vector<Index> names_in_cells;
   std::vector<RoughBox> boxes, edge_boxes, spaces;
-  std::vector<double> lengths;         // sums over pieces
-  std::vector<PairRows::Found> found;  // by thread
+  std::vector<double> lengths;          // sums over pieces
+  std::vector<PairRows::Found> shares;  // by thread
 
   static bool may_pair(const SurfaceView& s, Index a, Index b) {
     return a != b && (s.groups.empty() || s.groups[a] < 0 || s.groups[a] != s.groups[b]);
@@ -78,33 +79,38 @@ struct ContactSearch::Cells {
     box.grow(0.5 * buffer);
     return box;
   }
-  /// `report(rows)` with the nodes in a segment's grown box that may touch it.
-  template <class Report>
-  void nodes_in(const SurfaceView& s, Index segment, const RoughBox& rough_box, Report&& report) const {
-    const Index* const corners = corners_of(s, segment);
-    const Index* const nodes_of_rows = s.nodes.data();
-    node_cells.visit(rough_box.low, rough_box, [&](std::span<Index> rows) {
-      const std::size_t foreign = keep(rows, [&](Index row) { return !names(corners, nodes_of_rows[row]); });
-      if (foreign == 0) return;
-      const Box box = segment_box(s, segment);
-      std::size_t count =
-          keep(rows.first(foreign), [&](Index row) { return box.holds(place(s, nodes_of_rows[row])); });
-      if (!s.groups.empty()) {
-        count =
-            keep(rows.first(count), [&](Index row) { return may_pair(s, nodes_of_rows[row], corners[0]); });
-      }
-      report(rows.first(count));
+  /// What `find(found)` adds to the first `begin` in `room`.
+  template <class Find>
+  static std::span<Index> collect(std::vector<Index>& room, std::size_t begin, const Find& find) {
+    for (;;) {
+      FoundIds found{room.data(), begin, room.size()};
+      find(found);
+      if (!found.full()) return std::span(room).subspan(begin, found.count - begin);
+      room.resize(2 * room.size() + 1024);
+    }
+  }
+  /// The edges that may overlap a box, each once.
+  std::span<Index> edges_about(const RoughBox& box, std::vector<Index>& room) const {
+    return collect(room, 0, [&](FoundIds& found) {
+      edge_cells.visit(box,
+                       [&](const auto& cells, Float4 low) { kernels.find_boxes(cells, low, box, found); });
     });
   }
+  ExactPairs exact(const SurfaceView& s) const {
+    return {s.nodes.data(), s.segments.data(), s.position.data(), buffer};
+  }
+  void pair_renamed_segments(const SurfaceView& s, std::span<const Index> renamed);
+  void pair_new_nodes(const SurfaceView& s, Index end);
+  void pair_new_segments(const SurfaceView& s, Index end);
 
   /// `search(begin, end, found)` over the partners, a share for each thread.
   template <class Search>
   void search_shares(const Threads& threads, Index partners, Index rows, const Search& search) {
-    found.resize(threads.count());
+    shares.resize(threads.count());
     threads.for_each(threads.count(), [&](std::int64_t t) {
       const std::int64_t begin = partners * t / threads.count(), end = partners * (t + 1) / threads.count();
-      found[t].start(static_cast<Index>(begin), static_cast<Index>(end - begin), rows);
-      search(begin, end, found[t]);
+      shares[t].start(static_cast<Index>(begin), static_cast<Index>(end - begin), rows);
+      search(begin, end, shares[t]);
     });
   }
 
@@ -125,8 +131,6 @@ RoughBox ContactSearch::Cells::place_nodes(const SurfaceView& s, const Threads& 
   origin = middle(s);
   rough = {Double2{origin[0], origin[1]}, Double2{origin[2], 0}};
   points.resize(s.nodes.size());
-  all_rows.resize(points.size());
-  std::iota(all_rows.begin(), all_rows.end(), 0);
   spaces.resize((nodes + kPiece - 1) / kPiece);
   threads.for_ranges(nodes, kPiece, [&](std::int64_t begin, std::int64_t end) {
     spaces[begin / kPiece] =
@@ -173,11 +177,9 @@ void ContactSearch::Cells::regular(const SurfaceView& s, const Threads& threads)
   place_segments(s, threads);
   const auto cell = static_cast<float>(length);
   node_cells.reset(space, 2 * cell, points.size());
-  node_cells.build(points, all_rows, open);
+  node_cells.build(kernels, points, s.nodes, names_in_cells, open);
 
   const float grow = static_cast<float>(buffer * (1 + 1e-6));
-  names_in_cells.resize(points.size() + CellTable<false>::kSpare);
-  for (std::size_t i = 0; i < points.size(); ++i) names_in_cells[i] = s.nodes[node_cells.ids()[i]];
   const NodePairs job{node_cells.layout(),
                       node_cells.first(),
                       node_cells.places(),
@@ -194,14 +196,14 @@ void ContactSearch::Cells::regular(const SurfaceView& s, const Threads& threads)
   search_shares(threads, segments, nodes, [&](std::int64_t begin, std::int64_t end, PairRows::Found& here) {
     std::array<Index, kBatch> ends;
     for (std::int64_t m = begin; m < end;) {
-      FoundRows rows{here.room(), 0, here.room_size()};
+      FoundIds rows{here.room(), 0, here.room_size()};
       const std::int64_t done = kernels.pair_nodes(job, m, std::min(end, m + kBatch), rows, ends.data());
       here.took(rows.count, std::span(ends).first(done - m));
       if (done < std::min(end, m + kBatch)) here.make_room();
       m = done;
     }
   });
-  node_segments.assign(nodes, found);
+  node_segments.assign(nodes, shares);
   if (open) {
     segment_cells.reset(space, 2 * length);
     segment_cells.build(boxes, true);
@@ -221,17 +223,16 @@ void ContactSearch::Cells::pair_edges(const SurfaceView& s, const RoughBox& spac
   edge_cells.reset(space, 1.5 * length);
   edge_cells.build(edge_boxes, open);
   search_shares(threads, edges, edges, [&](std::int64_t begin, std::int64_t end, PairRows::Found& here) {
+    std::vector<Index> near_by;
     for (std::int64_t e = begin; e < end; ++e) {
       const auto edge = static_cast<Index>(e);
-      edge_cells.visit(edge_boxes[e], [&](std::span<const Index> others) {
-        for (const Index other : others) {
-          if (other < edge && edges_may_touch(s, other, edge)) here.add(other);
-        }
-      });
+      for (const Index other : edges_about(edge_boxes[e], near_by)) {
+        if (other < edge && edges_may_touch(s, other, edge)) here.add(other);
+      }
       here.end_partner();
     }
   });
-  edge_edges.assign(edges, found);
+  edge_edges.assign(edges, shares);
 }
 
 void ContactSearch::Cells::remember_names(const SurfaceView& s) {
@@ -241,6 +242,88 @@ void ContactSearch::Cells::remember_names(const SurfaceView& s) {
   ends_then.assign(s.edges.begin(), s.edges.end());
 }
 
+/// They lie where they did: of the old nodes only their former corners are new to them.
+void ContactSearch::Cells::pair_renamed_segments(const SurfaceView& s, std::span<const Index> renamed) {
+  constexpr std::size_t kAhead = 8;
+  for (std::size_t i = 0; i < renamed.size(); ++i) {
+    const Index ahead = renamed[std::min(i + kAhead, renamed.size() - 1)], m = renamed[i];
+    if (ahead < segments) __builtin_prefetch(&corners_then[4 * static_cast<std::size_t>(ahead)], 1);
+    if (m >= segments) continue;
+    const Index* const corners = corners_of(s, m);
+    Index* const then = &corners_then[4 * static_cast<std::size_t>(m)];
+    for (unsigned differ = 15U & ~lane_bits(load4(corners) == load4(then), Int4{}); differ != 0;
+         differ &= differ - 1) {
+      const Index former = then[__builtin_ctz(differ)];
+      const Index row = former < static_cast<Index>(row_of_node.size()) ? row_of_node[former] : kNone;
+      if (row == kNone || names(corners, former) || !may_pair(s, former, corners[0])) continue;
+      node_segments.add(row, m);
+      touched_nodes.push_back(row);
+    }
+    std::copy_n(corners, 4, then);
+  }
+}
+
+/// With the old segments.
+void ContactSearch::Cells::pair_new_nodes(const SurfaceView& s, Index end) {
+  hits_end.clear();
+  std::size_t count = 0;
+  for (Index row = nodes; row < end; ++row) {
+    const Index node = s.nodes[row];
+    const Float4 at = rough(place(s, node));
+    const std::span<Index> near_by = collect(hits, count, [&](FoundIds& found) {
+      segment_cells.visit({at, at}, [&](const auto& cells, Float4 low) {
+        kernels.find_segments(cells, low, at, exact(s), node, found);
+      });
+    });
+    for (const Index m : near_by) __builtin_prefetch(corners_of(s, m));
+    count += near_by.size();
+    hits_end.push_back(count);
+    node_cells.insert(at, row);
+    row_of_node[node] = row;
+  }
+  count = 0;
+  for (Index row = nodes; row < end; ++row) {
+    const Index node = s.nodes[row];
+    const std::span<Index> near_by = std::span(hits).subspan(count, hits_end[row - nodes] - count);
+    count = hits_end[row - nodes];
+    std::size_t foreign = keep(near_by, [&](Index m) { return !names(corners_of(s, m), node); });
+    if (!s.groups.empty()) {
+      foreign = keep(near_by.first(foreign), [&](Index m) { return may_pair(s, node, corners_of(s, m)[0]); });
+    }
+    node_segments.add(row, near_by.first(foreign));
+    if (foreign > 0) touched_nodes.push_back(row);
+  }
+  nodes = end;
+}
+
+void ContactSearch::Cells::pair_new_segments(const SurfaceView& s, Index end) {
+  Box box_before{};
+  std::span<Index> inside;
+  for (Index m = segments; m < end; ++m) {
+    const Index* const corners = corners_of(s, m);
+    const Box box = segment_box(s, m);
+    const RoughBox rough_box = rough(box);
+    // Both faces of a facet that came free hold the same nodes.
+    if (m == segments || box.low != box_before.low || box.high != box_before.high) {
+      inside = collect(hits, 0, [&](FoundIds& found) {
+        kernels.find_rows(node_cells.view(), rough_box, exact(s), box.low.data(), box.high.data(), found);
+      });
+      box_before = box;
+    }
+    rows_of_segment.assign(inside.begin(), inside.end());
+    std::size_t foreign = keep(rows_of_segment, [&](Index row) { return !names(corners, s.nodes[row]); });
+    if (!s.groups.empty()) {
+      foreign = keep(std::span(rows_of_segment).first(foreign),
+                     [&](Index row) { return may_pair(s, s.nodes[row], corners[0]); });
+    }
+    node_segments.add(std::span(rows_of_segment).first(foreign), m);
+    touched_nodes.insert(touched_nodes.end(), rows_of_segment.begin(), rows_of_segment.begin() + foreign);
+    segment_cells.insert(rough_box, m);
+    corners_then.insert(corners_then.end(), corners, corners + 4);
+  }
+  segments = end;
+}
+
 void ContactSearch::Cells::adaptive(const SurfaceView& s, std::span<const Index> renamed_segments,
                                     std::span<const Index> renamed_edges) {
   touched_nodes.clear();
@@ -248,70 +331,29 @@ void ContactSearch::Cells::adaptive(const SurfaceView& s, std::span<const Index>
   const Index new_nodes = static_cast<Index>(s.nodes.size());
   const Index new_segments = static_cast<Index>(s.segments.size() / 4);
   const Index new_edges = static_cast<Index>(s.edges.size() / 2);
-  const auto add = [&](Index row, Index segment) {
-    node_segments.add(row, segment);
-    if (touched_nodes.empty() || touched_nodes.back() != row) touched_nodes.push_back(row);
-  };
-
-  // A renamed segment lies where it did: of the old nodes only its former corners are new to it.
-  for (const Index m : renamed_segments) {
-    if (m >= segments) continue;
-    const Index* corners = corners_of(s, m);
-    for (int i = 0; i < 4; ++i) {
-      Index& then = corners_then[4 * static_cast<std::size_t>(m) + i];
-      if (then == corners[i]) continue;
-      const Index row = then < static_cast<Index>(row_of_node.size()) ? row_of_node[then] : kNone;
-      if (row != kNone && !names(corners, then) && may_pair(s, then, corners[0])) add(row, m);
-      then = corners[i];
-    }
-  }
+  pair_renamed_segments(s, renamed_segments);
 
   node_segments.add_rows(new_nodes - nodes);
   if (row_of_node.size() < s.position.size() / 3) row_of_node.resize(s.position.size() / 3, kNone);
-  for (Index row = nodes; row < new_nodes; ++row) {
-    const Index node = s.nodes[row];
-    const Corner x = place(s, node);
-    const Float4 at = rough(x);
-    segment_cells.visit({at, at}, [&](std::span<Index> candidates) {
-      const std::size_t foreign = keep(candidates, [&](Index m) { return !names(corners_of(s, m), node); });
-      for (const Index m : candidates.first(foreign)) {
-        if (segment_box(s, m).holds(x) && may_pair(s, node, corners_of(s, m)[0])) add(row, m);
-      }
-    });
-    node_cells.insert(at, row);
-    row_of_node[node] = row;
-  }
-  nodes = new_nodes;
-  for (Index m = segments; m < new_segments; ++m) {
-    const RoughBox box = rough(segment_box(s, m));
-    nodes_in(s, m, box, [&](std::span<const Index> rows) {
-      for (const Index row : rows) add(row, m);
-    });
-    segment_cells.insert(box, m);
-    corners_then.insert(corners_then.end(), corners_of(s, m), corners_of(s, m) + 4);
-  }
-  segments = new_segments;
+  pair_new_nodes(s, new_nodes);
+  pair_new_segments(s, new_segments);
 
   // A renamed edge pairs anew with those that shared a node with it and do so no more.
   for (const Index e : renamed_edges) {
     if (e >= edges) continue;
     Index* then = &ends_then[2 * static_cast<std::size_t>(e)];
-    edge_cells.visit(rough(edge_box(s, e)), [&](std::span<const Index> others) {
-      for (const Index other : others) {
-        if (other == e || !share_node(then, &ends_then[2 * static_cast<std::size_t>(other)])) continue;
-        if (edges_may_touch(s, other, e)) add_edge_pair(other, e);
-      }
-    });
+    for (const Index other : edges_about(rough(edge_box(s, e)), hits)) {
+      if (other == e || !share_node(then, &ends_then[2 * static_cast<std::size_t>(other)])) continue;
+      if (edges_may_touch(s, other, e)) add_edge_pair(other, e);
+    }
     std::copy_n(ends_of(s, e), 2, then);
   }
   edge_edges.add_rows(new_edges - edges);
   for (Index e = edges; e < new_edges; ++e) {
     const RoughBox box = rough(edge_box(s, e));
-    edge_cells.visit(box, [&](std::span<const Index> others) {
-      for (const Index other : others) {
-        if (edges_may_touch(s, other, e)) add_edge_pair(other, e);
-      }
-    });
+    for (const Index other : edges_about(box, hits)) {
+      if (edges_may_touch(s, other, e)) add_edge_pair(other, e);
+    }
     edge_cells.insert(box, e);
     ends_then.insert(ends_then.end(), ends_of(s, e), ends_of(s, e) + 2);
   }
@@ -398,7 +440,7 @@ void ContactSearch::archive(Archive& a) {
 std::size_t ContactSearch::memory() const {
   const Cells& c = *cells_;
   std::size_t pairs = 0;
-  for (const PairRows::Found& share : c.found) pairs += share.memory();
+  for (const PairRows::Found& share : c.shares) pairs += share.memory();
   return c.node_cells.memory() + c.segment_cells.memory() + c.edge_cells.memory() + c.node_segments.memory() +
          c.edge_edges.memory() + c.points.capacity() * sizeof(Float4) +
          (c.boxes.capacity() + c.edge_boxes.capacity()) * sizeof(RoughBox) + pairs +

@@ -26,15 +26,14 @@ void PairRows::compress(std::vector<Index>& start, std::vector<Index>& partners)
 }
 
 std::size_t PairRows::memory() const {
-  return (start_.capacity() + partners_.capacity() + head_.capacity()) * sizeof(Index) +
-         added_.capacity() * sizeof(Added);
+  return (start_.capacity() + partners_.capacity() + head_.capacity()) * sizeof(Index) + added_.memory();
 }
 
 void PairRows::archive(Archive& a) {
   a("pairs.start", start_);
   a("pairs.partners", partners_);
   a("pairs.head", head_);
-  a("pairs.added", added_);
+  added_.archive(a, "pairs.added");
 }
 
 void PairRows::Found::start(Index first, Index partners, Index rows) {
@@ -75,16 +74,42 @@ void PairRows::assign(Index rows, std::span<Found> shares) {
   partners_.resize(count);
   Threads(static_cast<int>(shares.size())).for_each(std::ssize(shares), [&](std::int64_t t) {
     Found& share = shares[t];
-    const Index* row = share.rows_.data();
+    if (share.count_ == 0) return;
+    Index* const row = share.rows_.data();
+    std::fill_n(row + share.count_, Found::kAhead, row[0]);
     Index* const next = share.row_counts_.data();
-    Index partner = share.first_;
+    Index* const to = partners_.data();
+    Index partner = share.first_, i = 0;
     for (const Index end : share.ends_) {
-      for (; row < share.rows_.data() + end; ++row) partners_[next[*row]++] = partner;
+      for (; i < end; ++i) {
+        __builtin_prefetch(&to[next[row[i + Found::kAhead]]], 1);
+        to[next[row[i]]++] = partner;
+      }
       ++partner;
     }
   });
   head_.assign(rows, kNone);
   added_.clear();
+}
+
+void PairRows::add(Index row, std::span<const Index> partners) {
+  auto at = static_cast<Index>(added_.size());
+  added_.resize(added_.size() + partners.size());
+  Index next = head_[row];
+  for (const Index partner : partners) {
+    added_[at] = {partner, next};
+    next = at++;
+  }
+  head_[row] = next;
+}
+
+void PairRows::add(std::span<const Index> rows, Index partner) {
+  auto at = static_cast<Index>(added_.size());
+  added_.resize(added_.size() + rows.size());
+  for (const Index row : rows) {
+    added_[at] = {partner, head_[row]};
+    head_[row] = at++;
+  }
 }
 
 }  // namespace cdfp

@@ -6,6 +6,7 @@
 
 #include "cdfp/types.hpp"
 #include "contact/cell_layout.hpp"
+#include "contact/cells_view.hpp"
 
 namespace cdfp {
 
@@ -26,10 +27,26 @@ struct NodePairs {
   double buffer;
 };
 
-/// Rows that were found, for segment after segment.
-struct FoundRows {
-  Index* rows;
-  std::size_t count, room;
+/// What decides, in double precision, whether a node and a segment pair.
+struct ExactPairs {
+  const Index* nodes;      ///< of the rows
+  const Index* corners;    ///< (segments, 4)
+  const double* position;  ///< (all nodes, 3)
+  double buffer;
+};
+
+/// Points on their way into a table of cells.
+struct PointSort {
+  const CellLayout& layout;
+  const Float4* points;
+  const Index* nodes;  ///< of the points
+  std::size_t count;
+  std::uint32_t* slot;    ///< of the points
+  std::uint32_t* first;   ///< zeros; then as in `CellsView`
+  Index* ids;             ///< which points they are, in the order of the table
+  Index* names;           ///< their nodes
+  std::uint16_t* places;  ///< along x, then y, then z
+  std::size_t stride;     ///< from one of them to the next
 };
 
 struct SearchKernels {
@@ -39,10 +56,21 @@ struct SearchKernels {
   /// Boxes of segments [begin, end) about `origin`, and the sum of their mean lengths, sqrt(area).
   double (*place_segments)(const Index* corners, const double* position, const double* origin,
                            std::int64_t begin, std::int64_t end, RoughBox* boxes);
+  /// Orders points by slice, then as given.
+  void (*sort_points)(const PointSort& job);
   /// Segments from `begin` until `end` or until there is no more room, which is what it returns. `ends[i]`:
   /// where the rows of the i-th of them end.
-  std::int64_t (*pair_nodes)(const NodePairs& job, std::int64_t begin, std::int64_t end, FoundRows& found,
+  std::int64_t (*pair_nodes)(const NodePairs& job, std::int64_t begin, std::int64_t end, FoundIds& found,
                              Index* ends);
+  /// Adds the boxes that overlap `box`, and few others, each once. Their lowest corners lie above `low`.
+  void (*find_boxes)(const CellsView<true>& cells, const Float4& low, const RoughBox& box, FoundIds& found);
+  /// Adds the segments whose grown boxes, as they are in the table or now, hold the node that is at `place`.
+  void (*find_segments)(const CellsView<true>& cells, const Float4& low, const Float4& place,
+                        const ExactPairs& exact, Index node, FoundIds& found);
+  /// Adds the rows of the nodes that are, or were when the table took them, in a box; `low` and `high`: the
+  /// same box in double precision.
+  void (*find_rows)(const CellsView<false>& cells, const RoughBox& box, const ExactPairs& exact,
+                    const double* low, const double* high, FoundIds& found);
 };
 
 extern const SearchKernels kSearchBaseline;

@@ -2,6 +2,9 @@
 // CDFP_ISA and CDFP_SEARCH_KERNELS. What they call is inlined.
 #include <cmath>
 
+#include "contact/cell_queries.hpp"
+#include "contact/exact_place.hpp"
+#include "contact/reach.hpp"
 #include "contact/search_kernels.hpp"
 #include "contact/wide.hpp"
 
@@ -13,16 +16,13 @@ namespace CDFP_ISA {
 struct Finder {
   const NodePairs& job;
   const Index* corners;
-  const RoughBox& box;
-  FoundRows& found;
-  Wide::Query query;
+  FoundIds& found;
+  Wide::Query<false> query;
   Wide::Corners own;
-  Wide::Query within;
-  bool has_within = false;
 
-  CDFP_ALWAYS_INLINE Finder(const NodePairs& pairs, const Index* of_segment, const RoughBox& grown, Int4 low,
-                            Int4 high, FoundRows& rows)
-      : job(pairs), corners(of_segment), box(grown), found(rows), query(low, high), own(of_segment) {}
+  CDFP_ALWAYS_INLINE Finder(const NodePairs& pairs, const Index* of_segment, const Reach& reach,
+                            FoundIds& rows)
+      : job(pairs), corners(of_segment), found(rows), query(reach.low, reach.high), own(of_segment) {}
 
   CDFP_ALWAYS_INLINE bool same_group(Index node) const {
     return job.groups[node] >= 0 && job.groups[node] == job.groups[corners[0]];
@@ -43,11 +43,17 @@ struct Finder {
   template <class Filter>
   CDFP_ALWAYS_INLINE void scan(std::uint32_t at, std::uint32_t end, const Filter& filter) {
     for (; at < end; at += Wide::kLanes) {
-      Wide::Bits bits = query.overlap(job.places + at, job.stride);
       const std::uint32_t left = end - at;
-      if (left < Wide::kLanes) bits &= (Wide::Bits{1} << left) - 1;
-      if (bits == 0) continue;
-      bits &= ~own.among(job.nodes + at);
+      Wide::Bits bits;
+      if (Wide::kLanes > 16 && left <= 16) {
+        bits = query.overlap_sixteen(job.places + at, job.stride) & (0xFFFFU >> (16 - left));
+        bits &= ~own.among_sixteen(job.nodes + at);
+      } else {
+        bits = query.overlap(job.places + at, job.stride);
+        if (left < Wide::kLanes) bits &= (Wide::Bits{1} << left) - 1;
+        if (bits == 0) continue;
+        bits &= ~own.among(job.nodes + at);
+      }
       if (bits == 0) continue;
       filter(at, bits);
       doubt(at, bits);
@@ -55,17 +61,13 @@ struct Finder {
         found.count = found.room + 1;
         return;
       }
-      Wide::pick(job.rows + at, bits, found.rows + found.count);
+      Wide::pick(job.rows + at, bits, found.ids + found.count);
       found.count += static_cast<std::size_t>(__builtin_popcount(bits));
     }
   }
   CDFP_ALWAYS_INLINE void doubt(std::uint32_t at, Wide::Bits& bits) {
-    if (job.layout.tells() && !has_within) {
-      const Lattice::Range sure = job.layout.lattice().within(box);
-      within = Wide::Query(sure.low, sure.high);
-      has_within = true;
-    }
-    Wide::Bits doubtful = has_within ? bits & ~within.overlap(job.places + at, job.stride) : bits;
+    Wide::Bits doubtful = bits;
+    if (job.layout.tells()) doubtful &= ~query.well_inside(job.places + at, job.stride);
     for (; doubtful != 0; doubtful &= doubtful - 1) {
       if (!holds(job.nodes[at + __builtin_ctz(doubtful)])) bits &= ~(doubtful & -doubtful);
     }
@@ -77,19 +79,20 @@ struct Finder {
   }
 };
 
-std::int64_t pair_nodes(const NodePairs& pairs, std::int64_t begin, std::int64_t end, FoundRows& found_rows,
+std::int64_t pair_nodes(const NodePairs& pairs, std::int64_t begin, std::int64_t end, FoundIds& found_ids,
                         Index* ends) {
   // Copies, which nothing that is written can alias.
   const NodePairs job = pairs;
-  FoundRows found = found_rows;
+  FoundIds found = found_ids;
+  const Reaches reaches(job.layout, job.grow);
   const auto any = [](std::uint32_t, Wide::Bits&) {};
   for (std::int64_t m = begin; m < end; ++m) {
     const std::size_t before = found.count;
-    const RoughBox box = grown(job.boxes[m], job.grow);
-    const Int4 low = job.layout.lattice()(box.low), high = job.layout.lattice()(box.high);
-    Finder finder(job, job.corners + 4 * m, box, low, high, found);
-    job.layout.visit(
-        low, high, job.points,
+    RoughBox box = job.boxes[m];
+    const Reach reach = reaches(box);
+    Finder finder(job, job.corners + 4 * m, reach, found);
+    job.layout.visit_cells(
+        reach.from, reach.to, job.points,
         [&](std::uint32_t from, std::uint32_t to) { finder.scan(job.first[from], job.first[to], any); },
         [&](std::uint32_t from, std::uint32_t to, std::int32_t y, std::int32_t z) {
           finder.scan(job.first[from], job.first[to], [&](std::uint32_t at, Wide::Bits& bits) {
@@ -102,39 +105,15 @@ std::int64_t pair_nodes(const NodePairs& pairs, std::int64_t begin, std::int64_t
         },
         [&] { finder.scan(0, static_cast<std::uint32_t>(job.points), any); });
     if (found.count > found.room) {
-      found_rows.count = before;
+      found_ids.count = before;
       return m;
     }
     job.boxes[m] = box;
     ends[m - begin] = static_cast<Index>(found.count);
   }
-  found_rows.count = found.count;
+  found_ids.count = found.count;
   return end;
 }
-
-/// A place in double precision, and the same about the origin in single precision.
-struct Place {
-#if defined(__AVX2__)
-  __m256d x;  // x, y, y, z
-
-  CDFP_ALWAYS_INLINE explicit Place(const double* p)
-      : x(_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(p)), _mm_loadu_pd(p + 1), 1)) {}
-  CDFP_ALWAYS_INLINE Float4 about(const Place& origin) const {
-    const auto lanes = reinterpret_cast<Float4>(_mm256_cvtpd_ps(_mm256_sub_pd(x, origin.x)));
-    return __builtin_shufflevector(lanes, lanes, 0, 1, 3, 3);
-  }
-#else
-  Double2 xy, z;
-
-  CDFP_ALWAYS_INLINE explicit Place(const double* p) : xy{p[0], p[1]}, z{p[2], 0} {}
-  CDFP_ALWAYS_INLINE Float4 about(const Place& origin) const {
-    typedef float Float2 __attribute__((vector_size(8)));
-    const auto flat = __builtin_convertvector(xy - origin.xy, Float2);
-    const auto high = __builtin_convertvector(z - origin.z, Float2);
-    return __builtin_shufflevector(flat, high, 0, 1, 2, 3);
-  }
-#endif
-};
 
 double place_segments(const Index* corners, const double* position, const double* middle, std::int64_t begin,
                       std::int64_t end, RoughBox* boxes) {
@@ -181,9 +160,88 @@ RoughBox place_nodes(const Index* nodes, const double* position, const double* m
   return space;
 }
 
+void sort_points(const PointSort& sort) {
+  // A copy, which nothing that is written can alias.
+  const CellLayout layout = sort.layout;
+  for (std::size_t i = 0; i < sort.count; ++i) {
+    const std::uint32_t slot = layout.slot(layout.lattice()(sort.points[i]));
+    sort.slot[i] = slot;
+    ++sort.first[slot + 2];
+  }
+  std::uint32_t sum = 0;
+  for (std::uint32_t s = 0; s < layout.size(); ++s) sort.first[s + 2] = sum += sort.first[s + 2];
+  for (std::size_t i = 0; i < sort.count; ++i) {
+    const std::size_t at = sort.first[sort.slot[i] + 1]++;
+    sort.ids[at] = static_cast<Index>(i);
+    sort.names[at] = sort.nodes[i];
+    const auto place = reinterpret_cast<Short8>(layout.lattice()(sort.points[i]));
+    std::uint16_t* const to = sort.places + at;
+    to[0] = place[0], to[sort.stride] = place[2], to[2 * sort.stride] = place[4];
+  }
+}
+
+void find_boxes(const CellsView<true>& cells, const Float4& low, const RoughBox& box, FoundIds& found) {
+  find(cells, low, box, NoDoubt{}, found);
+}
+
+struct SegmentDoubt {
+  const ExactPairs& exact;
+  Wide::Query<true> query;
+  Place x;
+  bool tells;
+
+  CDFP_ALWAYS_INLINE Wide::Bits sure(const std::uint16_t* places, std::size_t stride) const {
+    return tells ? query.well_inside(places, stride) : 0;
+  }
+  CDFP_ALWAYS_INLINE Wide::Bits sure_sixteen(const std::uint16_t* places) const {
+    return tells ? query.well_inside_sixteen(places) : 0;
+  }
+  CDFP_ALWAYS_INLINE bool passes(Index segment) const {
+    const Index* of = exact.corners + 4 * static_cast<std::size_t>(segment);
+    const Place first(exact.position + 3 * static_cast<std::size_t>(of[0]));
+    PlaceBox box{first, first};
+    for (int c = 1; c < 4; ++c) {
+      box.include(Place(exact.position + 3 * static_cast<std::size_t>(of[c] == kNone ? of[0] : of[c])));
+    }
+    return box.holds(x, exact.buffer);
+  }
+};
+void find_segments(const CellsView<true>& cells, const Float4& low, const Float4& place,
+                   const ExactPairs& exact, Index node, FoundIds& found) {
+  const Int4 at = cells.layout.lattice()(place);
+  const SegmentDoubt doubt{
+      exact, {at, at}, Place(exact.position + 3 * static_cast<std::size_t>(node)), cells.layout.tells()};
+  find(cells, low, {place, place}, doubt, found);
+}
+
+struct RowDoubt {
+  const ExactPairs& exact;
+  Wide::Query<false> query;
+  PlaceBox box;
+  bool tells;
+
+  CDFP_ALWAYS_INLINE Wide::Bits sure(const std::uint16_t* places, std::size_t stride) const {
+    return tells ? query.well_inside(places, stride) : 0;
+  }
+  CDFP_ALWAYS_INLINE Wide::Bits sure_sixteen(const std::uint16_t* places) const {
+    return tells ? query.well_inside_sixteen(places) : 0;
+  }
+  CDFP_ALWAYS_INLINE bool passes(Index row) const {
+    return box.holds(Place(exact.position + 3 * static_cast<std::size_t>(exact.nodes[row])), 0);
+  }
+};
+void find_rows(const CellsView<false>& cells, const RoughBox& box, const ExactPairs& exact, const double* low,
+               const double* high, FoundIds& found) {
+  const Lattice& lattice = cells.layout.lattice();
+  const RowDoubt doubt{
+      exact, {lattice(box.low), lattice(box.high)}, {Place(low), Place(high)}, cells.layout.tells()};
+  find(cells, box.low, box, doubt, found);
+}
+
 }  // namespace CDFP_ISA
 
-const SearchKernels CDFP_SEARCH_KERNELS{CDFP_ISA::place_nodes, CDFP_ISA::place_segments,
-                                        CDFP_ISA::pair_nodes};
+const SearchKernels CDFP_SEARCH_KERNELS{
+    CDFP_ISA::place_nodes, CDFP_ISA::place_segments, CDFP_ISA::sort_points, CDFP_ISA::pair_nodes,
+    CDFP_ISA::find_boxes,  CDFP_ISA::find_segments,  CDFP_ISA::find_rows};
 
 }  // namespace cdfp
