@@ -49,10 +49,9 @@ class BoxLevels {
   void archive(Archive& a) {
     a("levels.space", space_);
     a("levels.base", base_);
-    std::uint64_t count = levels_.size();
-    a("levels.count", count);
-    levels_.resize(count);
-    for (CellTable<true>& level : levels_) level.archive(a);
+    a("levels.used", used_);
+    if (levels_.size() < used_) levels_.resize(used_);
+    for (std::size_t level = 0; level < used_; ++level) levels_[level].archive(a);
   }
   std::size_t memory() const {
     std::size_t bytes = 0;

@@ -10,6 +10,7 @@
 #include "cdfp/error.hpp"
 #include "cdfp/laminated_plate.hpp"
 #include "contact/contact.hpp"
+#include "core/archive.hpp"
 
 namespace {
 
@@ -232,6 +233,15 @@ TEST_P(Cracking, BricksThatAreTakenOutLeaveThePairsOfTheRest) {
     ASSERT_EQ(contact.segment_count() - contact.removed_count(), afresh.segment_count()) << at;
     afresh.regular_search(arrays);
     ASSERT_EQ(living_pairs(contact, living), living_pairs(afresh, living)) << at;
+
+    if (random() % 4 == 0) {  // a saved one that goes on in its place
+      Archive saved;
+      contact.archive(saved);
+      SurfaceContact restored(model.contact);
+      Archive read(saved.bytes());
+      restored.archive(read);
+      contact = std::move(restored);
+    }
 
     // A lost node in the middle of a brick that is left would be deep inside.
     for (Index n = 0; n < nodes.count(); ++n) {
