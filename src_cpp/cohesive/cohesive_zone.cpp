@@ -163,7 +163,7 @@ CohesiveZone::Energy CohesiveZone::energy() const {
     sum.friction += e.friction;
     sum.ga += e.ga;
   }
-  for (const UserPoints& user : points_->users) sum.slope_cost += user.slope_cost();
+  for (const UserCohesivePoints& user : points_->users) sum.slope_cost += user.slope_cost();
   return sum;
 }
 
@@ -235,7 +235,7 @@ void CohesiveZone::archive(Archive& a) {
   a("cohesive.points", p.points);
   a("cohesive.live", p.live);
   p.clusters.archive(a);
-  for (UserPoints& user : p.users) user.archive(a);
+  for (UserCohesivePoints& user : p.users) user.archive(a);
   a("cohesive.couples", p.couples);
   a("cohesive.broken_elements", p.broken_elements);
   a("cohesive.broken_count", p.broken_count);

@@ -38,7 +38,7 @@ class FacetStrength {
   std::vector<std::int32_t> law_of_part_;  ///< -1: the part does not crack
   std::vector<Index> part_of_element_;
   std::vector<double> shares_;
-  std::vector<double> area_;  ///< m2, six an element; empty if no law needs it
+  std::vector<double> area_;   ///< m2, six an element; empty if no law needs it
   std::vector<double> least_;  ///< by element; empty if strength follows the part's law alone
 };
 

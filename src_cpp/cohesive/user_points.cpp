@@ -7,15 +7,15 @@
 
 namespace cdfp {
 
-Index UserPoints::add(Vec3 insertion_traction) {
+Index UserCohesivePoints::add(Vec3 insertion_traction) {
   points_.push_back({});
   points_.back().insertion_traction = insertion_traction;
   state_.resize(state_.size() + states_, 0.0);
   return static_cast<Index>(points_.size()) - 1;
 }
 
-void UserPoints::ask(const CohesiveLaw& law, double time, double step,
-                     const std::vector<Question>& questions) {
+void UserCohesivePoints::ask(const CohesiveLaw& law, double time, double step,
+                             const std::vector<Question>& questions) {
   const std::size_t n = questions.size();
   if (n == 0) return;
   for (std::vector<double>* rows : {&opening_, &normal_, &insertion_, &traction_}) rows->resize(3 * n);
@@ -52,7 +52,7 @@ void UserPoints::ask(const CohesiveLaw& law, double time, double step,
 
 /// A traction that falls behind a steep law would feed energy in; one that is bounded by the opening does
 /// not.
-void UserPoints::take(Point& point, const Question& question, Vec3 traction) {
+void UserCohesivePoints::take(Point& point, const Question& question, Vec3 traction) {
   const double size = norm(traction);
   const double most = question.stiffest * norm(question.opening);
   if (size <= most) {

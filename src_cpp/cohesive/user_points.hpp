@@ -10,9 +10,9 @@
 
 namespace cdfp {
 
-class UserPoints {
+class UserCohesivePoints {
  public:
-  explicit UserPoints(int states) : states_(static_cast<std::size_t>(states)) {}
+  explicit UserCohesivePoints(int states) : states_(static_cast<std::size_t>(states)) {}
 
   /// A point that carries this at no opening; returns its place.
   Index add(Vec3 insertion_traction);

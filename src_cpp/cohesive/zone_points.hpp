@@ -138,7 +138,7 @@ struct CohesiveZone::Points {
   std::span<const Index> layer_of_element;
   std::vector<std::int32_t> law_of_part;
   std::vector<Law> laws;
-  std::vector<UserPoints> users;  ///< one a law
+  std::vector<UserCohesivePoints> users;  ///< one a law
 
   std::vector<Facet> facets;
   std::vector<Point> points;  ///< four a facet

