@@ -173,6 +173,29 @@ TEST(Restart, UsersMaterialThatDeletesAndFriction) {
   EXPECT_GT(deleted, 0U);
 }
 
+/// Two wedges a brick: glass that is torn, and PVB behind it.
+TEST(Restart, WedgesThatCrackAndFlow) {
+  Model model;
+  scenes::add_box(model.mesh, "glass", {12, 2, 2}, {12e-3, 2e-3, 2e-3});
+  model.mesh.part_names.emplace_back("pvb");
+  for (std::size_t e = 0; e < model.mesh.parts.size(); ++e) model.mesh.parts[e] = e % 12 < 8 ? 0 : 1;
+  scenes::cut_into_wedges(model.mesh, 2);
+  model = scenes::with_part(std::move(model), "glass", {2500, 70e9, 0.2});
+  model = scenes::with_part(std::move(model), "pvb", {});
+  model.materials[1].law = RateDependentMaterial{1000, 0.49, 5.88e6, 29.21e6, 0.176, 1e-6};
+  CohesiveLaw law;
+  law.name = "glass";
+  law.strength = 60e6;
+  law.fracture_energy = 10;
+  model.cohesive_laws = {law};
+  model.parts[0].cohesive_law = "glass";
+  model.initial_velocities = {{"glass", {}, {3000, 0, 0, 0, 0, 0, 0, 0, 0}}};
+  model.time.end = 6e-6;
+  int broken = 0;
+  stop_and_go_on(model, {2, 30, 50}, [&](const Simulation& s) { broken = s.broken_count(); });
+  EXPECT_GT(broken, 0);
+}
+
 /// A bar that is torn by a user's cohesive law, with a bond, a load and a moving end.
 TEST(Restart, UsersCohesiveLawBondAndLoad) {
   Model model;

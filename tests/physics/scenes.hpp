@@ -59,6 +59,26 @@ inline void add_box(Mesh& mesh, const std::string& name, std::array<Index, 3> di
   mesh.facet_sets.push_back(faces);
 }
 
+/// Cuts the hexahedra of a box in two wedges each, upright along x (0) or z (2).
+inline void cut_into_wedges(Mesh& mesh, int upright) {
+  static constexpr int kTurned[2][8] = {{0, 3, 7, 4, 1, 2, 6, 5}, {0, 1, 2, 3, 4, 5, 6, 7}};
+  static constexpr int kCut[2][6] = {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
+  std::vector<Index> corners, parts;
+  for (std::size_t e = 0; e < mesh.parts.size(); ++e) {
+    for (const auto& wedge : kCut) {
+      for (const int c : wedge) {
+        corners.push_back(mesh.connectivity[8 * e + static_cast<std::size_t>(kTurned[upright / 2][c])]);
+      }
+      parts.push_back(mesh.parts[e]);
+    }
+  }
+  mesh.connectivity = std::move(corners);
+  mesh.parts = std::move(parts);
+  mesh.types.assign(mesh.parts.size(), ElementType::wedge);
+  mesh.layers.clear();
+  mesh.facet_sets.clear();
+}
+
 inline Model with_part(Model model, const std::string& name, const ElasticMaterial& law,
                        Formulation formulation = Formulation::one_point) {
   model.materials.push_back({name, law});

@@ -17,26 +17,6 @@ namespace {
 
 const ElasticMaterial kGlass{2500, 74e9, 0.2};
 
-/// Cuts the hexahedra of a box in two wedges each, upright along x (0) or z (2).
-void cut_into_wedges(Mesh& mesh, int upright) {
-  static constexpr int kTurned[2][8] = {{0, 3, 7, 4, 1, 2, 6, 5}, {0, 1, 2, 3, 4, 5, 6, 7}};
-  static constexpr int kCut[2][6] = {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
-  std::vector<Index> corners, parts;
-  for (std::size_t e = 0; e < mesh.parts.size(); ++e) {
-    for (const auto& wedge : kCut) {
-      for (const int c : wedge) {
-        corners.push_back(mesh.connectivity[8 * e + static_cast<std::size_t>(kTurned[upright / 2][c])]);
-      }
-      parts.push_back(mesh.parts[e]);
-    }
-  }
-  mesh.connectivity = std::move(corners);
-  mesh.parts = std::move(parts);
-  mesh.types.assign(mesh.parts.size(), ElementType::wedge);
-  mesh.layers.clear();
-  mesh.facet_sets.clear();
-}
-
 CohesiveLaw glass_law(double mode_ratio) {
   CohesiveLaw law;
   law.name = "glass";
@@ -55,7 +35,7 @@ TEST_P(WedgesThatCrack, SpallBarDissipatesTheFractureEnergy) {
   Model model;
   const double h = 1e-3;
   scenes::add_box(model.mesh, "bar", {60, 2, 2}, {60 * h, 2 * h, 2 * h});
-  cut_into_wedges(model.mesh, GetParam());
+  scenes::cut_into_wedges(model.mesh, GetParam());
   model = scenes::with_part(std::move(model), "bar", {2500, 74e9, 0});
   model.parts[0].cohesive_law = "glass";
   model.cohesive_laws = {glass_law(5)};
@@ -80,7 +60,7 @@ TEST_P(WedgesThatCrack, ThickBarDissipatesTheLawsEnergyInMixedMode) {
   Model model;
   const double h = 1e-3;
   scenes::add_box(model.mesh, "bar", {16, 4, 4}, {16 * h, 4 * h, 4 * h});
-  cut_into_wedges(model.mesh, GetParam());
+  scenes::cut_into_wedges(model.mesh, GetParam());
   model = scenes::with_part(std::move(model), "bar", kGlass);
   model.parts[0].cohesive_law = "glass";
   model.cohesive_laws = {glass_law(5)};
@@ -102,7 +82,7 @@ TEST(Wedges, FreeBodySpinsAndRingsWithoutLoss) {
   Model model;
   scenes::add_box(model.mesh, "body", {5, 4, 2}, {5e-3, 4e-3, 2e-3});
   for (double& x : model.mesh.coordinates) x += shift(random);
-  cut_into_wedges(model.mesh, 2);
+  scenes::cut_into_wedges(model.mesh, 2);
   model = scenes::with_part(std::move(model), "body", kGlass);
   // Spin about an axis through no symmetry, and a stretch that rings; half a turn.
   model.initial_velocities = {{"body", {3, -2, 1}, {800, -4000, 2000, 4000, -300, -3000, -2000, 3000, 500}}};
@@ -170,8 +150,8 @@ TEST(Wedges, BarsThatMeetInTrianglesAndQuadrilateralsSwapVelocities) {
   Mesh right;
   scenes::add_box(model.mesh, "left", {40, 2, 2}, {40 * h, 2 * h, 2 * h});
   scenes::add_box(right, "right", {40, 2, 2}, {40 * h, 2 * h, 2 * h}, {40 * h + 1e-6, 0, 0});
-  cut_into_wedges(model.mesh, 0);
-  cut_into_wedges(right, 2);
+  scenes::cut_into_wedges(model.mesh, 0);
+  scenes::cut_into_wedges(right, 2);
   const Index half = model.mesh.node_count();
   Mesh& mesh = model.mesh;
   mesh.coordinates.insert(mesh.coordinates.end(), right.coordinates.begin(), right.coordinates.end());
@@ -237,7 +217,8 @@ std::vector<double> after_half_a_turn(const std::function<void(Mesh&)>& cut) {
 TEST(Wedges, RigidBodySpinsAsOneOfBricks) {
   const std::vector<double> bricks = after_half_a_turn([](Mesh&) {});
   for (const int upright : {0, 2}) {
-    const std::vector<double> wedges = after_half_a_turn([&](Mesh& m) { cut_into_wedges(m, upright); });
+    const std::vector<double> wedges =
+        after_half_a_turn([&](Mesh& m) { scenes::cut_into_wedges(m, upright); });
     for (std::size_t i = 0; i < bricks.size(); ++i) EXPECT_NEAR(wedges[i], bricks[i], 1e-12);
   }
   const std::vector<double> tetrahedra = after_half_a_turn([](Mesh& mesh) {
