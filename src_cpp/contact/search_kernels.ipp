@@ -79,31 +79,46 @@ struct Finder {
   }
 };
 
+/// Where rows are folded, or a segment is so large that it looks at all nodes.
+[[gnu::noinline]] void pair_nodes_far(const NodePairs& job, std::int64_t m, const Reach& reach,
+                                      FoundIds& found) {
+  Finder finder(job, job.corners + 4 * m, reach, found);
+  const auto any = [](std::uint32_t, Wide::Bits&) {};
+  job.layout.visit_cells(
+      reach.from, reach.to, job.points,
+      [&](std::uint32_t from, std::uint32_t to) { finder.scan(job.first[from], job.first[to], any); },
+      [&](std::uint32_t from, std::uint32_t to, std::int32_t y, std::int32_t z) {
+        finder.scan(job.first[from], job.first[to], [&](std::uint32_t at, Wide::Bits& bits) {
+          const std::uint16_t *ys = job.places + job.stride + at, *zs = ys + job.stride;
+          for (Wide::Bits rest = bits; rest != 0; rest &= rest - 1) {
+            const int i = __builtin_ctz(rest);
+            if (!CellLayout::is_row(ys[i], y) || !CellLayout::is_row(zs[i], z)) bits &= ~(rest & -rest);
+          }
+        });
+      },
+      [&] { finder.scan(0, static_cast<std::uint32_t>(job.points), any); });
+}
+
 std::int64_t pair_nodes(const NodePairs& pairs, std::int64_t begin, std::int64_t end, FoundIds& found_ids,
                         Index* ends) {
   // Copies, which nothing that is written can alias.
   const NodePairs job = pairs;
   FoundIds found = found_ids;
   const Reaches reaches(job.layout, job.grow);
-  const auto any = [](std::uint32_t, Wide::Bits&) {};
   for (std::int64_t m = begin; m < end; ++m) {
     const std::size_t before = found.count;
     RoughBox box = job.boxes[m];
     const Reach reach = reaches(box);
     Finder finder(job, job.corners + 4 * m, reach, found);
-    job.layout.visit_cells(
-        reach.from, reach.to, job.points,
-        [&](std::uint32_t from, std::uint32_t to) { finder.scan(job.first[from], job.first[to], any); },
-        [&](std::uint32_t from, std::uint32_t to, std::int32_t y, std::int32_t z) {
-          finder.scan(job.first[from], job.first[to], [&](std::uint32_t at, Wide::Bits& bits) {
-            const std::uint16_t *ys = job.places + job.stride + at, *zs = ys + job.stride;
-            for (Wide::Bits rest = bits; rest != 0; rest &= rest - 1) {
-              const int i = __builtin_ctz(rest);
-              if (!CellLayout::is_row(ys[i], y) || !CellLayout::is_row(zs[i], z)) bits &= ~(rest & -rest);
-            }
-          });
-        },
-        [&] { finder.scan(0, static_cast<std::uint32_t>(job.points), any); });
+    const bool done =
+        job.layout.visit_flat(reach.from, reach.to, job.points, [&](std::uint32_t from, std::uint32_t to) {
+          finder.scan(job.first[from], job.first[to], [](std::uint32_t, Wide::Bits&) {});
+        });
+    if (!done) {
+      FoundIds far = found;
+      pair_nodes_far(pairs, m, reach, far);
+      found = far;
+    }
     if (found.count > found.room) {
       found_ids.count = before;
       return m;
