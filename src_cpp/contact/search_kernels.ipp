@@ -139,21 +139,13 @@ double place_segments(const Index* corners, const double* position, const double
     const std::int64_t count = end - first < kBatch ? end - first : kBatch;
     for (std::int64_t i = 0; i < count; ++i) {
       const Index* of = corners + 4 * (first + i);
-      const double* x[4];
-      for (int c = 0; c < 4; ++c)
-        x[c] = position + 3 * static_cast<std::size_t>(of[c] == kNone ? of[0] : of[c]);
-      const Float4 first_corner = Place(x[0]).about(origin);
-      RoughBox box{first_corner, first_corner};
-      for (int c = 1; c < 4; ++c) {
-        const Float4 corner = Place(x[c]).about(origin);
-        box = {lesser(box.low, corner), greater(box.high, corner)};
-      }
-      boxes[first + i] = box;
-      // Half the cross product of the diagonals.
-      const double p0 = x[2][0] - x[0][0], p1 = x[2][1] - x[0][1], p2 = x[2][2] - x[0][2];
-      const double q0 = x[3][0] - x[1][0], q1 = x[3][1] - x[1][1], q2 = x[3][2] - x[1][2];
-      const double a = p1 * q2 - p2 * q1, b = p2 * q0 - p0 * q2, c = p0 * q1 - p1 * q0;
-      length[i] = 0.25 * (a * a + b * b + c * c);
+      const auto corner = [&](Index node) { return Place(position + 3 * static_cast<std::size_t>(node)); };
+      const Place x0 = corner(of[0]), x1 = corner(of[1]), x2 = corner(of[2]);
+      const Place x3 = corner(of[3] == kNone ? of[0] : of[3]);
+      PlaceBox box{x0, x0};
+      box.include(x1), box.include(x2), box.include(x3);
+      boxes[first + i] = {box.low.about(origin), box.high.about(origin)};
+      length[i] = 0.25 * cross_squared(x0, x2, x1, x3);  // half the cross product of the diagonals
     }
     for (std::int64_t i = 0; i < count; ++i) length[i] = std::sqrt(std::sqrt(length[i]));
     for (std::int64_t i = 0; i < count; ++i) sum += length[i];
