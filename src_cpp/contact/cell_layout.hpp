@@ -120,10 +120,30 @@ class CellLayout {
                                 const ScanRow& scan_row, const Everything& everything) const {
     visit_cells(in_cells(from), in_cells(to), entities, scan, scan_row, everything);
   }
+  /// The same without the margin, and only where that takes `scan` alone; returns whether it does.
+  template <class Scan>
+  CDFP_ALWAYS_INLINE bool visit_flat(Int4 low, Int4 high, std::size_t entities, const Scan& scan) const {
+    const Int4 first_cell = low >> kCellBits, last_cell = high >> kCellBits;
+    const auto x0 = static_cast<std::uint32_t>(low[0] >> kSliceBits);
+    const std::uint32_t length = static_cast<std::uint32_t>(high[0] >> kSliceBits) - x0 + 1;
+    const std::int32_t in_layer = last_cell[1] - first_cell[1] + 1;
+    std::int32_t layers = last_cell[2] - first_cell[2] + 1;
+    // In a flat table there are fewer than `kRowsTold` of either.
+    if (!flat_ || static_cast<std::uint32_t>(in_layer * layers) > entities + 8) return false;
+    std::uint32_t layer = static_cast<std::uint32_t>(first_cell[1]) * row_stride_ +
+                          static_cast<std::uint32_t>(first_cell[2]) * layer_stride_ + x0;
+    for (; layers > 0; --layers, layer += layer_stride_) {
+      std::uint32_t row = layer;
+      for (std::int32_t y = in_layer; y > 0; --y, row += row_stride_) scan(row, row + length);
+    }
+    return true;
+  }
   /// The same without the margin.
   template <class Scan, class ScanRow, class Everything>
   CDFP_ALWAYS_INLINE void visit_cells(Int4 low, Int4 high, std::size_t entities, const Scan& scan,
                                       const ScanRow& scan_row, const Everything& everything) const {
+    if (visit_flat(low, high, entities, scan)) return;
+    if (flat_) return everything();
     const Int4 first_cell = low >> kCellBits, last_cell = high >> kCellBits;
     const auto x0 = static_cast<std::uint32_t>(low[0] >> kSliceBits);
     const std::uint32_t length = static_cast<std::uint32_t>(high[0] >> kSliceBits) - x0 + 1;
@@ -131,14 +151,6 @@ class CellLayout {
     const auto rows = static_cast<std::uint64_t>(y1 - y0 + 1) * static_cast<std::uint64_t>(z1 - z0 + 1);
     std::uint32_t layer =
         static_cast<std::uint32_t>(y0) * row_stride_ + static_cast<std::uint32_t>(z0) * layer_stride_ + x0;
-    if (flat_) {
-      if (rows > entities + 8) return everything();
-      for (std::int32_t z = z0; z <= z1; ++z, layer += layer_stride_) {
-        std::uint32_t row = layer;
-        for (std::int32_t y = y0; y <= y1; ++y, row += row_stride_) scan(row, row + length);
-      }
-      return;
-    }
     const bool told = y1 - y0 < kRowsTold && z1 - z0 < kRowsTold && length + kGroup <= size_;
     if (!told || rows * length > entities + 8) return everything();
     for (std::int32_t z = z0; z <= z1; ++z, layer += layer_stride_) {

@@ -62,4 +62,23 @@ struct PlaceBox {
 #endif
 };
 
+/// |(b - a) x (d - c)|^2.
+CDFP_ALWAYS_INLINE double cross_squared(const Place& a, const Place& b, const Place& c, const Place& d) {
+#if defined(__AVX2__)
+  constexpr int kYzx = 1 | 3 << 2 | 0 << 4, kZxy = 3 | 0 << 2 | 1 << 4;
+  const __m256d p = _mm256_sub_pd(b.x, a.x), q = _mm256_sub_pd(d.x, c.x);
+  const __m256d n =
+      _mm256_sub_pd(_mm256_mul_pd(_mm256_permute4x64_pd(p, kYzx), _mm256_permute4x64_pd(q, kZxy)),
+                    _mm256_mul_pd(_mm256_permute4x64_pd(p, kZxy), _mm256_permute4x64_pd(q, kYzx)));
+  const __m256d squares = _mm256_mul_pd(n, n);
+  const __m128d xy = _mm256_castpd256_pd128(squares), z = _mm256_extractf128_pd(squares, 1);
+  return _mm_cvtsd_f64(_mm_add_sd(_mm_add_sd(xy, _mm_unpackhi_pd(xy, xy)), z));
+#else
+  const Double2 p = b.xy - a.xy, q = d.xy - c.xy;
+  const double p2 = b.z[0] - a.z[0], q2 = d.z[0] - c.z[0];
+  const double n0 = p[1] * q2 - p2 * q[1], n1 = p2 * q[0] - p[0] * q2, n2 = p[0] * q[1] - p[1] * q[0];
+  return n0 * n0 + n1 * n1 + n2 * n2;
+#endif
+}
+
 }  // namespace cdfp::CDFP_ISA

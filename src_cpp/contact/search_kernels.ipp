@@ -79,31 +79,46 @@ struct Finder {
   }
 };
 
+/// Where rows are folded, or a segment is so large that it looks at all nodes.
+[[gnu::noinline]] void pair_nodes_far(const NodePairs& job, std::int64_t m, const Reach& reach,
+                                      FoundIds& found) {
+  Finder finder(job, job.corners + 4 * m, reach, found);
+  const auto any = [](std::uint32_t, Wide::Bits&) {};
+  job.layout.visit_cells(
+      reach.from, reach.to, job.points,
+      [&](std::uint32_t from, std::uint32_t to) { finder.scan(job.first[from], job.first[to], any); },
+      [&](std::uint32_t from, std::uint32_t to, std::int32_t y, std::int32_t z) {
+        finder.scan(job.first[from], job.first[to], [&](std::uint32_t at, Wide::Bits& bits) {
+          const std::uint16_t *ys = job.places + job.stride + at, *zs = ys + job.stride;
+          for (Wide::Bits rest = bits; rest != 0; rest &= rest - 1) {
+            const int i = __builtin_ctz(rest);
+            if (!CellLayout::is_row(ys[i], y) || !CellLayout::is_row(zs[i], z)) bits &= ~(rest & -rest);
+          }
+        });
+      },
+      [&] { finder.scan(0, static_cast<std::uint32_t>(job.points), any); });
+}
+
 std::int64_t pair_nodes(const NodePairs& pairs, std::int64_t begin, std::int64_t end, FoundIds& found_ids,
                         Index* ends) {
   // Copies, which nothing that is written can alias.
   const NodePairs job = pairs;
   FoundIds found = found_ids;
   const Reaches reaches(job.layout, job.grow);
-  const auto any = [](std::uint32_t, Wide::Bits&) {};
   for (std::int64_t m = begin; m < end; ++m) {
     const std::size_t before = found.count;
     RoughBox box = job.boxes[m];
     const Reach reach = reaches(box);
     Finder finder(job, job.corners + 4 * m, reach, found);
-    job.layout.visit_cells(
-        reach.from, reach.to, job.points,
-        [&](std::uint32_t from, std::uint32_t to) { finder.scan(job.first[from], job.first[to], any); },
-        [&](std::uint32_t from, std::uint32_t to, std::int32_t y, std::int32_t z) {
-          finder.scan(job.first[from], job.first[to], [&](std::uint32_t at, Wide::Bits& bits) {
-            const std::uint16_t *ys = job.places + job.stride + at, *zs = ys + job.stride;
-            for (Wide::Bits rest = bits; rest != 0; rest &= rest - 1) {
-              const int i = __builtin_ctz(rest);
-              if (!CellLayout::is_row(ys[i], y) || !CellLayout::is_row(zs[i], z)) bits &= ~(rest & -rest);
-            }
-          });
-        },
-        [&] { finder.scan(0, static_cast<std::uint32_t>(job.points), any); });
+    const bool done =
+        job.layout.visit_flat(reach.from, reach.to, job.points, [&](std::uint32_t from, std::uint32_t to) {
+          finder.scan(job.first[from], job.first[to], [](std::uint32_t, Wide::Bits&) {});
+        });
+    if (!done) {
+      FoundIds far = found;
+      pair_nodes_far(pairs, m, reach, far);
+      found = far;
+    }
     if (found.count > found.room) {
       found_ids.count = before;
       return m;
@@ -124,21 +139,13 @@ double place_segments(const Index* corners, const double* position, const double
     const std::int64_t count = end - first < kBatch ? end - first : kBatch;
     for (std::int64_t i = 0; i < count; ++i) {
       const Index* of = corners + 4 * (first + i);
-      const double* x[4];
-      for (int c = 0; c < 4; ++c)
-        x[c] = position + 3 * static_cast<std::size_t>(of[c] == kNone ? of[0] : of[c]);
-      const Float4 first_corner = Place(x[0]).about(origin);
-      RoughBox box{first_corner, first_corner};
-      for (int c = 1; c < 4; ++c) {
-        const Float4 corner = Place(x[c]).about(origin);
-        box = {lesser(box.low, corner), greater(box.high, corner)};
-      }
-      boxes[first + i] = box;
-      // Half the cross product of the diagonals.
-      const double p0 = x[2][0] - x[0][0], p1 = x[2][1] - x[0][1], p2 = x[2][2] - x[0][2];
-      const double q0 = x[3][0] - x[1][0], q1 = x[3][1] - x[1][1], q2 = x[3][2] - x[1][2];
-      const double a = p1 * q2 - p2 * q1, b = p2 * q0 - p0 * q2, c = p0 * q1 - p1 * q0;
-      length[i] = 0.25 * (a * a + b * b + c * c);
+      const auto corner = [&](Index node) { return Place(position + 3 * static_cast<std::size_t>(node)); };
+      const Place x0 = corner(of[0]), x1 = corner(of[1]), x2 = corner(of[2]);
+      const Place x3 = corner(of[3] == kNone ? of[0] : of[3]);
+      PlaceBox box{x0, x0};
+      box.include(x1), box.include(x2), box.include(x3);
+      boxes[first + i] = {box.low.about(origin), box.high.about(origin)};
+      length[i] = 0.25 * cross_squared(x0, x2, x1, x3);  // half the cross product of the diagonals
     }
     for (std::int64_t i = 0; i < count; ++i) length[i] = std::sqrt(std::sqrt(length[i]));
     for (std::int64_t i = 0; i < count; ++i) sum += length[i];
