@@ -13,7 +13,7 @@ namespace cdfp::scenes {
 /// outside. Node sets "<name>_low_x" and "<name>_high_x".
 inline void add_box(Mesh& mesh, const std::string& name, std::array<Index, 3> divisions,
                     std::array<double, 3> size, std::array<double, 3> origin = {}) {
-  const auto [nx, ny, nz] = divisions;
+  const Index nx = divisions[0], ny = divisions[1], nz = divisions[2];
   const Index first_node = mesh.node_count();
   const Index first_element = mesh.element_count();
   const Index part = static_cast<Index>(mesh.part_names.size());

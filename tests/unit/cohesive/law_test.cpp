@@ -149,7 +149,8 @@ TEST(CohesiveLaw, RandomPathsAgreeWithFineIntegration) {
   std::uniform_real_distribution<double> pick(-1, 1);
   const Face face;
   const double reach = 2 * kEnergy / kStrength;
-  for (const auto& [kappa, eta] : kRatios) {
+  for (const auto& ratios : kRatios) {
+    const double kappa = ratios.first, eta = ratios.second;
     for (int path = 0; path < 4; ++path) {
       const auto point = [&] {
         return reach * ((0.35 + 0.55 * pick(random)) * face.n +
