@@ -6,6 +6,7 @@
 #include "contact/box_levels.hpp"
 #include "contact/boxes.hpp"
 #include "contact/search_kernels.hpp"
+#include "core/growth.hpp"
 #include "core/parallel.hpp"
 
 namespace cdfp {
@@ -319,6 +320,7 @@ void ContactSearch::Cells::pair_new_segments(const SurfaceView& s, Index end) {
     node_segments.add(std::span(rows_of_segment).first(foreign), m);
     touched_nodes.insert(touched_nodes.end(), rows_of_segment.begin(), rows_of_segment.begin() + foreign);
     segment_cells.insert(rough_box, m);
+    make_room(corners_then, corners_then.size() + 4);
     corners_then.insert(corners_then.end(), corners, corners + 4);
   }
   segments = end;

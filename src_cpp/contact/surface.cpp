@@ -4,20 +4,21 @@
 #include <string>
 
 #include "cdfp/error.hpp"
+#include "core/growth.hpp"
 #include "core/numbered.hpp"
 
 namespace cdfp {
 
 Index Surface::row_for(Index node) {
   if (node >= static_cast<Index>(row_of_node_.size())) {
-    row_of_node_.resize(std::max<std::size_t>(node + 1, row_of_node_.size() * 5 / 4), kNone);
+    lengthen(row_of_node_, static_cast<std::size_t>(node) + 1, kNone);
   }
   if (row_of_node_[node] == kNone) {
     row_of_node_[node] = node_count();
-    nodes_.push_back(node);
+    append(nodes_, node);
     node_limit_ = std::max(node_limit_, node + 1);
-    node_stiffness_.push_back(0);
-    incident_.push_back(kNone);
+    append(node_stiffness_, 0.0);
+    append(incident_, kNone);
   }
   return row_of_node_[node];
 }
@@ -43,20 +44,22 @@ Index Surface::add_segment(const SurfaceContact::Segment& segment) {
                 "contact segment " + numbered(number) + " of element " + numbered(segment.element) +
                     ": element and corners must be given, area, volume and bulk modulus positive");
   }
+  make_room(data_, data_.size() + 1);
   data_.push_back({penalty_factor_ * segment.bulk_modulus * segment.area * segment.area / segment.volume,
                    segment.volume / segment.area, segment.element, segment.part});
+  make_room(segments_, segments_.size() + 4);
   segments_.insert(segments_.end(), segment.nodes.begin(), segment.nodes.end());
-  next_incident_.resize(segments_.size(), kNone);
+  lengthen(next_incident_, segments_.size(), kNone);
   for (Index i = 0; i < 4 && segment.nodes[i] != kNone; ++i) attach(4 * number + i);
 
   if (segment.element >= static_cast<Index>(first_segment_.size())) {
-    first_segment_.resize(std::max<std::size_t>(segment.element + 1, first_segment_.size() * 5 / 4), kNone);
-    first_edge_.resize(first_segment_.size(), kNone);
+    lengthen(first_segment_, static_cast<std::size_t>(segment.element) + 1, kNone);
+    lengthen(first_edge_, first_segment_.size(), kNone);
   }
   for (Index other = first_segment_[segment.element]; other != kNone; other = next_segment_[other]) {
     add_edge_between(number, other);
   }
-  next_segment_.push_back(first_segment_[segment.element]);
+  append(next_segment_, first_segment_[segment.element]);
   first_segment_[segment.element] = number;
   return number;
 }
@@ -73,7 +76,7 @@ void Surface::add_edge_between(Index segment, Index other) {
     edge_data_.push_back({{segment, other},
                           0.5 * (data_[segment].stiffness + data_[other].stiffness),
                           std::min(data_[segment].height, data_[other].height)});
-    next_edge_.push_back(first_edge_[element]);
+    append(next_edge_, first_edge_[element]);
     first_edge_[element] = edge_count() - 1;
     return;
   }

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "contact/stages.hpp"
+#include "core/growth.hpp"
 #include "core/numbered.hpp"
 #include "core/require.hpp"
 
@@ -15,12 +16,14 @@ constexpr std::int64_t kSpeedGrain = 4096;
 }  // namespace
 
 void SurfaceContact::Stages::grow_to_surface() {
-  holds.resize(surface.node_count());
-  wake.resize(surface.node_count(), 0);
-  ended_here.resize(surface.node_count(), 0);
-  has_pairs.resize(surface.node_count(), 0);
-  is_partner.resize(surface.segment_count(), 0);
-  planes.resize(surface.segment_count());
+  const auto nodes = static_cast<std::size_t>(surface.node_count());
+  const auto segments = static_cast<std::size_t>(surface.segment_count());
+  lengthen(holds, nodes);
+  lengthen(wake, nodes);
+  lengthen(ended_here, nodes);
+  lengthen(has_pairs, nodes);
+  lengthen(is_partner, segments);
+  lengthen(planes, segments);
   if (settings.edge_edge) {
     edge_wake.resize(surface.edge_count(), 0);
     edge_has_pairs.resize(surface.edge_count(), 0);
@@ -81,7 +84,7 @@ void SurfaceContact::split(Index mother, Index copy) {
                                         numbered(mother) + "; nodes count from " + numbered(0));
   const Index from = s.surface.row(mother), to = s.surface.row(copy);
   if (from == kNone || to == kNone || from >= static_cast<Index>(s.holds.size())) return;
-  if (s.holds.size() <= static_cast<std::size_t>(to)) s.holds.resize(to + 1);
+  if (s.holds.size() <= static_cast<std::size_t>(to)) lengthen(s.holds, static_cast<std::size_t>(to) + 1);
   Stages::Hold& hold = s.holds[from];
   if (hold.segment == kNone) return;
   // Both share the springs, so force and energy stay what they were.

@@ -9,6 +9,7 @@
 
 #include "cdfp/types.hpp"
 #include "core/archive.hpp"
+#include "core/growth.hpp"
 #include "core/vec3.hpp"
 
 namespace cdfp {
@@ -50,23 +51,14 @@ struct Nodes {
   /// `reference` shows, and returns its number.
   Index clone(Index mother, std::vector<double>& coordinates) {
     for (std::vector<double>* field : {&coordinates, &position, &velocity, &force}) {
-      make_room(*field, 3);
+      make_room(*field, field->size() + 3);
       for (int d = 0; d < 3; ++d) field->push_back((*field)[3 * static_cast<std::size_t>(mother) + d]);
     }
     reference = coordinates;
-    make_room(mass, 1);
-    mass.push_back(mass[mother]);
-    fixed.push_back(fixed[mother]);
-    make_room(body, 1);
-    body.push_back(body[mother]);
+    append(mass, mass[mother]);
+    append(fixed, fixed[mother]);
+    append(body, body[mother]);
     return count() - 1;
-  }
-
- private:
-  /// Cracks split few of the nodes: an eighth more at a time, not twice as much memory.
-  template <class T>
-  static void make_room(std::vector<T>& field, std::size_t more) {
-    if (field.size() + more > field.capacity()) field.reserve(field.size() + field.size() / 8 + more);
   }
 };
 

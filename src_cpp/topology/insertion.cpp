@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cdfp/error.hpp"
+#include "core/growth.hpp"
 #include "core/numbered.hpp"
 #include "topology/star.hpp"
 
@@ -34,12 +35,6 @@ FacetUse checked_mate(const TopologyStore& store, FacetUse use) {
   }
   if (count >= kMaxElements) refuse(use, "the topology holds as many elements as it can number");
   return {element_of(mate), local_of(mate)};
-}
-
-/// Grows in steps, so that many insertions cost linear time.
-template <class Vector>
-void make_room(Vector& v, std::size_t more) {
-  if (v.capacity() - v.size() < more) v.reserve(std::max(v.size() + more, v.capacity() + v.capacity() / 2));
 }
 
 }  // namespace
@@ -163,10 +158,10 @@ void Inserter::decide(TopologyStore& store, const Cut& cut, Insertion& report) {
   ranges_[n] = moves_.size();
 
   // All memory that `apply` needs, so that it cannot fail half way.
-  make_room(report.new_nodes, n);
-  make_room(report.renumbered, moves_.size() * (1 + kMaxAtCorner));
-  make_room(store.anchors, n);
-  make_room(store.cohesive, TopologyStore::kCohesiveWords);
+  make_room(report.new_nodes, report.new_nodes.size() + n);
+  make_room(report.renumbered, report.renumbered.size() + moves_.size() * (1 + kMaxAtCorner));
+  make_room(store.anchors, store.anchors.size() + n);
+  make_room(store.cohesive, store.cohesive.size() + TopologyStore::kCohesiveWords);
 }
 
 void Inserter::apply(TopologyStore& store, const Cut& cut, Insertion& report) {
