@@ -13,13 +13,13 @@ void make_room(List& list, std::size_t size) {
 }
 
 template <class T, class Allocator>
-void append(std::vector<T, Allocator>& list, const T& item) {
+void append(std::vector<T, Allocator>& list, T item) {  // by value: it may be one of the list
   make_room(list, list.size() + 1);
   list.push_back(item);
 }
 
 template <class T, class Allocator>
-void lengthen(std::vector<T, Allocator>& list, std::size_t size, const T& item = T()) {
+void lengthen(std::vector<T, Allocator>& list, std::size_t size, T item = T()) {
   make_room(list, size);
   list.resize(size, item);
 }
