@@ -166,7 +166,8 @@ TEST(UserMaterialSimulation, GoesOnFromAFileInTheMiddleOfTearing) {
     EXPECT_TRUE(rest.history().values == whole.history().values);
     const Frame f = whole.frame(), g = rest.frame();
     ASSERT_EQ(f.fields.size(), g.fields.size());
-    for (std::size_t i = 0; i < f.fields.size(); ++i) EXPECT_TRUE(f.fields[i].values == g.fields[i].values) << i;
+    for (std::size_t i = 0; i < f.fields.size(); ++i)
+      EXPECT_TRUE(f.fields[i].values == g.fields[i].values) << i;
   }
 }
 

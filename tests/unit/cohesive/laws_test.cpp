@@ -49,7 +49,8 @@ struct Bonded {
     Index f = 0;
     while (body.topology.mate({0, f}).element != 1) ++f;
     body.topology.insert_cohesive({0, f}, body.report);
-    for (const auto& [node, mother] : body.report.new_nodes) body.nodes.clone(mother, body.model.mesh.coordinates);
+    for (const auto& [node, mother] : body.report.new_nodes)
+      body.nodes.clone(mother, body.model.mesh.coordinates);
     std::fill(body.nodes.mass.begin(), body.nodes.mass.end(), 0.0);
     for (Index e = 0; e < 2; ++e) {
       for (const Index n : body.topology.nodes(e)) body.nodes.mass[n] += body.corner_mass();
