@@ -81,17 +81,17 @@ void write_constants(BlockKind kind, const HexahedronGeometry& geometry, const E
       for (int axis = 0; axis < 3; ++axis) write(3 * mode + axis, geometry.b(mode, axis));
     }
   };
-  const auto prism_gradient = [&] {
+  const auto prism_gradient = [&](int count) {
     const Eigen::Matrix<double, 7, 3>& b = geometry.b;
     const double kept[] = {b(0, 0), b(0, 1), b(1, 0), b(1, 1), b(2, 2), b(3, 2), b(4, 2)};
-    for (int i = 0; i < 7; ++i) write(i, kept[i]);
+    for (int i = 0; i < count; ++i) write(i, kept[i]);
   };
   switch (kind) {
     case BlockKind::prism_elastic:
     case BlockKind::prism_stored:
     case BlockKind::prism_rate_dependent: {
       using Shape = host::Prism;
-      prism_gradient();
+      prism_gradient(7);
       for (int i = 0; i < 2; ++i) write(Shape::kMoments + i, geometry.moments(2, i));
       for (int i = 0; i < 3; ++i) write(Shape::kStiffness + i, g[i]);
       write(Shape::kVolume, geometry.volume);
@@ -115,10 +115,8 @@ void write_constants(BlockKind kind, const HexahedronGeometry& geometry, const E
     case BlockKind::full_prism_stored:
     case BlockKind::full_prism_rate_dependent: {
       using Shape = host::PrismPoints;
-      const Eigen::Matrix<double, 7, 3>& b = geometry.b;
-      const double kept[] = {b(0, 0), b(0, 1), b(1, 0), b(1, 1), b(2, 2)};
-      for (int i = 0; i < 5; ++i) write(i, kept[i]);
-      const double area = std::sqrt(3.0) * 64 * geometry.volume * b(2, 2);
+      prism_gradient(5);
+      const double area = std::sqrt(3.0) * 64 * geometry.volume * geometry.b(2, 2);
       write(Shape::kBend, geometry.moments(2, 1) / area);
       write(Shape::kBend + 1, -geometry.moments(2, 0) / area);
       write(Shape::kVolume, geometry.volume);

@@ -15,6 +15,9 @@
 
 namespace cdfp::CDFP_ISA {
 
+/// The points' places along each axis, 1 / sqrt 3.
+inline constexpr double kPlace = 0.57735026918962576451;
+
 /// The line of points along `axis` through `point`, by the signs of its two companions.
 CDFP_INLINE constexpr int line_of(int point, int axis) {
   return axis == 0 ? point >> 1 : axis == 1 ? (point & 1) | (point >> 1 & 2) : point & 3;
@@ -157,7 +160,7 @@ struct PrismPoints {
 
    private:
     /// b of the modes that an end face's slope in D brings in: delta's slope / 3, slopes being at 1 / sqrt 3.
-    CDFP_INLINE T skew(int axis) const { return T(0.57735026918962576451) * slope_[axis] * across_; }
+    CDFP_INLINE T skew(int axis) const { return T(kPlace) * slope_[axis] * across_; }
 
     T b_[2][2], across_, k_[2], eighth_, slope_[2];
   };
@@ -281,8 +284,6 @@ struct FullIntegration {
       use(grad, strain, point);
     }
   }
-
-  static constexpr double kPlace = 0.57735026918962576451;  ///< of the points, 1 / sqrt 3
 
   /// Modes of the tangent along an axis: constant, linear in its first and in its second companion, product.
   static constexpr int kOf[3][4] = {{0, 5, 4, 6}, {1, 5, 3, 6}, {2, 4, 3, 6}};
