@@ -46,9 +46,12 @@ void SurfaceContact::archive(Archive& a) {
   a("contact.edge_hits", s.edge_hits);
   a("contact.stamp", s.stamp);
   a("contact.ended_here", s.ended_here);
-  a("contact.node_touches", s.node_touches);
+  std::uint64_t pieces = s.pieces.size();
+  a("contact.pieces", pieces);
+  s.pieces.resize(pieces);
+  for (Stages::Piece& piece : s.pieces) a("contact.touches", piece.touches);
   a("contact.edge_touches", s.edge_touches);
-  a("contact.removed_touches", s.removed_touches);
+  a("contact.removed_pairs", s.removed_pairs);
   a("contact.worst", s.worst);
   a("contact.body_pairs", s.body_pairs);
 }

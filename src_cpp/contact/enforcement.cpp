@@ -44,28 +44,54 @@ double heat_of_drag(Vec3 old_drag, Vec3 drag, Vec3 slip, double old_stick_energy
   return -0.5 * dot(old_drag + drag, slip) - (stick_energy - old_stick_energy);
 }
 
-void bound_stiffness(TouchingPair& pair, const double* mass, double step) {
+void bound_stiffness(TouchingPair& pair, Grip& grip, const double* mass, double step) {
   double per_mass[2] = {0, 0};
   for (Index i = 0; i < pair.count; ++i) {
-    const double m = mass[pair.nodes[i]];
-    pair.per_mass[i] = m > 0 ? 1 / m : 0;
+    const double m = mass[pair.nodes[i]], inverse = m > 0 ? 1 / m : 0;
+    pair.per_mass[i] = static_cast<float>((1 + 1e-7) * inverse);
     double& side = per_mass[i < pair.first_count ? 0 : 1];
-    side = std::max(side, pair.per_mass[i]);
+    side = std::max(side, inverse);
   }
   const double softness = step * step * (per_mass[0] + per_mass[1]);
-  if (pair.grip.stiffness * softness > kStableShare) pair.grip.stiffness = kStableShare / softness;
+  if (grip.stiffness * softness > kStableShare) grip.stiffness = kStableShare / softness;
 }
 
-void enforce(TouchingPair& pair, const SurfaceContact::Arrays& arrays, double friction, double step) {
-  Grip& grip = pair.grip;
+SurfaceContact::BodyPair& find_or_add(std::vector<SurfaceContact::BodyPair>& all,
+                                      const std::array<Index, 2>& parts) {
+  const auto [low, high] = std::minmax(parts[0], parts[1]);
+  const std::array<Index, 2> ascending{low, high};
+  auto found = std::find_if(all.begin(), all.end(), [&](const SurfaceContact::BodyPair& bodies) {
+    return bodies.parts == ascending;
+  });
+  if (found == all.end()) found = all.insert(found, SurfaceContact::BodyPair{.parts = ascending});
+  return *found;
+}
+
+}  // namespace
+
+double SurfaceContact::Stages::stiffness(const TouchingPair& pair) const {
+  return pair.first_count == 2
+             ? std::min(surface.edge_data(pair.first).stiffness, surface.edge_data(pair.second).stiffness)
+             : std::min(surface.data(pair.second).stiffness, surface.node_stiffness(pair.first));
+}
+
+double SurfaceContact::Stages::height(const TouchingPair& pair) const {
+  return pair.first_count == 2
+             ? std::min(surface.edge_data(pair.first).height, surface.edge_data(pair.second).height)
+             : surface.data(pair.second).height;
+}
+
+void SurfaceContact::Stages::enforce(TouchingPair& pair, Grip& grip, const Arrays& arrays,
+                                     double step) const {
+  const double friction = settings.friction;
   const Vec3 slip = step * slip_speed(pair, arrays.velocity.data());
   const double approach = dot(pair.normal, slip);
   if (pair.origin == TouchingPair::Origin::fresh) {
-    grip.stiffness = pair.stiffness;
-    pair.ignored = pair.first_count == 2 && std::min(approach, 0.0) - pair.gap > kSideways * pair.height;
+    grip.stiffness = stiffness(pair);
+    pair.ignored = pair.first_count == 2 && std::min(approach, 0.0) - pair.gap > kSideways * height(pair);
     if (pair.ignored) return;
   }
-  bound_stiffness(pair, arrays.mass.data(), step);
+  bound_stiffness(pair, grip, arrays.mass.data(), step);
   if (pair.origin != TouchingPair::Origin::same) {
     // The spring starts, or goes on, as long as this step's approach alone makes it: penetration from before
     // pushes nothing, and a change of face gives no energy.
@@ -95,31 +121,66 @@ void enforce(TouchingPair& pair, const SurfaceContact::Arrays& arrays, double fr
   pair.stored += grip.stick_energy();
 }
 
-}  // namespace
-
-SurfaceContact::BodyPair& SurfaceContact::Stages::body_pair(const TouchingPair& pair) {
-  const auto [low, high] = std::minmax(pair.parts[0], pair.parts[1]);
-  const std::array<Index, 2> parts{low, high};
-  auto found = std::find_if(body_pairs.begin(), body_pairs.end(),
-                            [&](const BodyPair& bodies) { return bodies.parts == parts; });
-  if (found == body_pairs.end()) found = body_pairs.insert(found, BodyPair{.parts = parts});
-  return *found;
-}
-
-void SurfaceContact::Stages::add_to_sums(const TouchingPair& pair) {
-  BodyPair& bodies = body_pair(pair);
+void SurfaceContact::Stages::add_to_sums(const TouchingPair& pair, Sums& sums) const {
+  if (pair.ignored) return;
+  BodyPair& bodies = find_or_add(sums.bodies, pair.parts);
   bodies.stored += pair.stored;
   bodies.friction_heat += pair.heat;
   bodies.deepest = std::max(bodies.deepest, -pair.gap);
-  if (pair.stored > 0 && pair.parts[0] != pair.parts[1]) {
-    (pair.parts[0] < pair.parts[1] ? pair.force : -pair.force).add_to(bodies.force.data());
+  if (pair.stored > 0) {
+    if (pair.parts[0] != pair.parts[1]) {
+      (pair.parts[0] < pair.parts[1] ? pair.force : -pair.force).add_to(bodies.force.data());
+    }
+    const auto [least, largest] = std::minmax_element(pair.nodes.begin(), pair.nodes.begin() + pair.count);
+    sums.nodes = {std::min(sums.nodes[0], *least), std::max(sums.nodes[1], *largest)};
   }
-  if (-pair.gap > worst.share * pair.height) {
+  const double tall = height(pair);
+  if (-pair.gap > sums.worst.share * tall) {
     const bool edges = pair.first_count == 2;
     const Index segment = edges ? surface.edge_data(pair.second).segments[0] : pair.second;
-    worst = {-pair.gap / pair.height,       -pair.gap,  pair.nodes[0],
-             surface.data(segment).element, pair.parts, edges};
+    sums.worst = {-pair.gap / tall, -pair.gap, pair.nodes[0], surface.data(segment).element,
+                  pair.parts,       edges};
   }
+}
+
+void SurfaceContact::Stages::add_to_bodies(const Sums& sums) {
+  for (const BodyPair& part : sums.bodies) {
+    BodyPair& bodies = find_or_add(body_pairs, part.parts);
+    bodies.stored += part.stored;
+    bodies.friction_heat += part.friction_heat;
+    bodies.deepest = std::max(bodies.deepest, part.deepest);
+    Vec3::load(part.force.data()).add_to(bodies.force.data());
+  }
+  if (sums.worst.share > worst.share) worst = sums.worst;
+}
+
+/// Each thread adds to nodes of its own, in the order of the pairs: the same sums for any number of threads.
+void SurfaceContact::Stages::add_to_nodes(const Arrays& arrays, int threads) const {
+  // Where a share of the nodes begins: by what the pieces touch, so that the work is even.
+  std::vector<Index> seen;
+  for_each_piece([&](const Sums& sums, auto&&) {
+    if (sums.nodes[1] >= 0) seen.insert(seen.end(), sums.nodes.begin(), sums.nodes.end());
+  });
+  std::sort(seen.begin(), seen.end());
+  const std::int64_t shares = std::min<std::int64_t>(threads, 1 + std::ssize(seen) / 8);
+  const auto bound = [&](std::int64_t share) {
+    if (share == 0) return Index{0};
+    return share == shares ? surface.node_limit() : seen[seen.size() * share / shares];
+  };
+  Threads(static_cast<int>(shares)).for_each(shares, [&](std::int64_t share) {
+    const Index begin = bound(share), end = bound(share + 1);
+    for_each_piece([&](const Sums& sums, auto&& for_each_pair) {
+      if (sums.nodes[0] >= end || sums.nodes[1] < begin) return;
+      for_each_pair([&](const TouchingPair& pair, const Grip&) {
+        if (!(pair.stored > 0) || pair.ignored) return;
+        for (Index i = 0; i < pair.count; ++i) {
+          const Index node = pair.nodes[i];
+          if (node < begin || node >= end) continue;
+          (pair.weights[i] * pair.force).add_to(&arrays.force[3 * static_cast<std::size_t>(node)]);
+        }
+      });
+    });
+  });
 }
 
 void SurfaceContact::add_force(const Arrays& arrays, double step, int threads) {
@@ -130,38 +191,38 @@ void SurfaceContact::add_force(const Arrays& arrays, double step, int threads) {
           "'mass' has " + std::to_string(arrays.mass.size()) + " numbers; give one for each of the " +
               std::to_string(arrays.velocity.size() / 3) + " nodes that 'velocity' has");
   require_positive(step, "the step");
-  const double friction = s.settings.friction;
   for (BodyPair& bodies : s.body_pairs) bodies.stored = 0, bodies.force = {};
-  for (const TouchingPair& lost : s.removed_touches) {
+  for (const TouchingPair& lost : s.removed_pairs) {
     const Vec3 slip = step * slip_speed(lost, arrays.velocity.data());
-    s.body_pair(lost).friction_heat += lost.stored - 0.5 * dot(lost.force, slip);
+    find_or_add(s.body_pairs, lost.parts).friction_heat += lost.stored - 0.5 * dot(lost.force, slip);
   }
-  s.removed_touches.clear();
-  if (friction > 0) {
-    for (const TouchingPair* old : s.ended) {
-      const Vec3 slip = step * slip_speed(*old, arrays.velocity.data());
-      s.body_pair(*old).friction_heat +=
-          heat_of_drag(old->grip.drag, Vec3{}, slip, old->grip.stick_energy(), 0);
+  s.removed_pairs.clear();
+  if (s.settings.friction > 0) {
+    for (const GrippedPair& old : s.ended) {
+      const Vec3 slip = step * slip_speed(old.pair, arrays.velocity.data());
+      find_or_add(s.body_pairs, old.pair.parts).friction_heat +=
+          heat_of_drag(old.grip.drag, Vec3{}, slip, old.grip.stick_energy(), 0);
     }
   }
   s.ended.clear();
-  for (std::vector<TouchingPair>* pairs : {&s.node_touches, &s.edge_touches}) {
-    share_out(threads, static_cast<std::int64_t>(pairs->size()), [&](std::int64_t i) {
-      TouchingPair& pair = (*pairs)[i];
-      enforce(pair, arrays, friction, step);
-      if (pair.first_count == 1) s.holds[pair.first].grip = pair.grip;
-    });
-    // One place and one order for the sums at nodes.
-    for (const TouchingPair& pair : *pairs) {
-      if (pair.ignored) continue;
-      s.add_to_sums(pair);
-      if (pair.stored > 0) {
-        for (Index i = 0; i < pair.count; ++i) {
-          (pair.weights[i] * pair.force).add_to(&arrays.force[3 * static_cast<std::size_t>(pair.nodes[i])]);
-        }
-      }
+  Threads(threads).for_each(std::ssize(s.pieces), [&](std::int64_t i) {
+    Stages::Sums& sums = s.pieces[i].sums.start(s.worst);
+    for (TouchingPair& pair : s.pieces[i].touches) {
+      s.enforce(pair, s.holds[pair.first].grip, arrays, step);
+      s.add_to_sums(pair, sums);
     }
-  }
+  });
+  s.edge_sums.resize((s.edge_touches.size() + Stages::kPiece - 1) / Stages::kPiece);
+  Threads(threads).for_ranges(std::ssize(s.edge_touches), Stages::kPiece,
+                              [&](std::int64_t begin, std::int64_t end) {
+                                Stages::Sums& sums = s.edge_sums[begin / Stages::kPiece].start(s.worst);
+                                for (std::int64_t i = begin; i < end; ++i) {
+                                  s.enforce(s.edge_touches[i].pair, s.edge_touches[i].grip, arrays, step);
+                                  s.add_to_sums(s.edge_touches[i].pair, sums);
+                                }
+                              });
+  s.add_to_nodes(arrays, threads);
+  s.for_each_piece([&](const Stages::Sums& sums, auto&&) { s.add_to_bodies(sums); });
   for (BodyPair& bodies : s.body_pairs) {
     bodies.peak_force = std::max(bodies.peak_force, norm(Vec3::load(bodies.force.data())));
   }
@@ -170,15 +231,12 @@ void SurfaceContact::add_force(const Arrays& arrays, double step, int threads) {
 double SurfaceContact::stiffness_over_mass() const {
   // Gershgorin: the largest row sum of M^-1 K bounds omega^2 of the springs.
   std::vector<std::pair<Index, double>> sums;
-  for (const std::vector<TouchingPair>* pairs : {&stages_->node_touches, &stages_->edge_touches}) {
-    for (const TouchingPair& pair : *pairs) {
-      if (!(pair.stored > 0)) continue;
-      for (Index i = 0; i < pair.count; ++i) {
-        sums.emplace_back(pair.nodes[i],
-                          2 * pair.grip.stiffness * std::abs(pair.weights[i]) * pair.per_mass[i]);
-      }
+  stages_->for_each_pair([&](const TouchingPair& pair, const Grip& grip) {
+    if (!(pair.stored > 0)) return;
+    for (Index i = 0; i < pair.count; ++i) {
+      sums.emplace_back(pair.nodes[i], 2 * grip.stiffness * std::abs(pair.weights[i]) * pair.per_mass[i]);
     }
-  }
+  });
   std::sort(sums.begin(), sums.end());
   double largest = 0, sum = 0;
   for (std::size_t i = 0; i < sums.size(); ++i) {

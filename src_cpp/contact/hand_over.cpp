@@ -20,77 +20,86 @@ void for_each_node_pair(const TouchingPair& pair, Visit&& visit) {
   }
 }
 
-void take_over(TouchingPair& pair, const TouchingPair& old, double side) {
+void take_over(TouchingPair& pair, Grip& grip, const Grip& old, double side) {
   if (pair.origin == TouchingPair::Origin::fresh) {
-    pair.grip = old.grip;
-    pair.grip.stick *= side;
-    pair.grip.drag *= side;
+    grip = old;
+    grip.stick *= side;
+    grip.drag *= side;
   } else {
     // The normal spring takes up the other's energy as far as the gap allows (it has an offset to give up).
-    pair.grip.pressed =
-        -std::sqrt(pair.grip.pressed * pair.grip.pressed +
-                   old.grip.stiffness / pair.grip.stiffness * old.grip.pressed * old.grip.pressed);
+    grip.pressed =
+        -std::sqrt(grip.pressed * grip.pressed + old.stiffness / grip.stiffness * old.pressed * old.pressed);
   }
   pair.origin = TouchingPair::Origin::moved;
 }
 
 }  // namespace
 
-void SurfaceContact::Stages::hand_over() {
-  ended.clear();
-  for (TouchingPair& old : old_node_touches) {
-    Hold& hold = holds[old.first];
-    if (hold.stamp != stamp) hold = Hold{};
-    if (!hold.kept) ended.push_back(&old);
-  }
-  const auto key = [](const TouchingPair& t) { return std::array<Index, 2>{t.first, t.second}; };
+/// Edges that were touching go on, or end.
+void SurfaceContact::Stages::follow_edges() {
+  const auto key = [](const GrippedPair& t) { return std::array<Index, 2>{t.pair.first, t.pair.second}; };
   std::size_t next = 0;
-  for (TouchingPair& old : old_edge_touches) {
-    if (old.ignored) continue;
+  for (const GrippedPair& old : old_edge_touches) {
+    if (old.pair.ignored) continue;
     while (next < edge_touches.size() && key(edge_touches[next]) < key(old)) ++next;
     if (next < edge_touches.size() && key(edge_touches[next]) == key(old)) {
       edge_touches[next].grip = old.grip;
-      edge_touches[next].origin = TouchingPair::Origin::same;
+      edge_touches[next].pair.origin = TouchingPair::Origin::same;
     } else {
-      ended.push_back(&old);
+      ended.push_back(old);
     }
   }
-  if (ended.empty()) return;
+}
 
-  for (const TouchingPair* old : ended) {
-    for (Index i = 0; i < old->count; ++i) ended_here[surface.row(old->nodes[i])] = stamp;
-  }
+/// The pairs that have a node on each side where some pair ended.
+void SurfaceContact::Stages::find_links() {
   links.clear();
-  for (std::vector<TouchingPair>* pairs : {&node_touches, &edge_touches}) {
-    for (TouchingPair& pair : *pairs) {
-      for_each_node_pair(pair, [&](std::array<Index, 2> nodes, bool turned) {
-        if (ended_here[surface.row(nodes[0])] == stamp && ended_here[surface.row(nodes[1])] == stamp) {
-          links.push_back({nodes, &pair, turned});
-        }
-      });
+  const auto link = [&](TouchingPair& pair, Grip& grip) {
+    for_each_node_pair(pair, [&](std::array<Index, 2> nodes, bool turned) {
+      if (ended_here[surface.row(nodes[0])] == stamp && ended_here[surface.row(nodes[1])] == stamp) {
+        links.push_back({nodes, &pair, &grip, turned});
+      }
+    });
+  };
+  for (Piece& piece : pieces) {
+    for (TouchingPair& pair : piece.touches) {
+      if (ended_here[pair.first] == stamp) link(pair, holds[pair.first].grip);
     }
   }
+  for (GrippedPair& edges : edge_touches) link(edges.pair, edges.grip);
   std::stable_sort(links.begin(), links.end(),
                    [](const Link& a, const Link& b) { return a.nodes < b.nodes; });
+}
+
+void SurfaceContact::Stages::hand_over() {
+  ended.clear();
+  for (const Piece& piece : pieces) ended.insert(ended.end(), piece.ended.begin(), piece.ended.end());
+  follow_edges();
+  if (ended.empty()) return;
+
+  for (const GrippedPair& old : ended) {
+    for (Index i = 0; i < old.pair.count; ++i) ended_here[surface.row(old.pair.nodes[i])] = stamp;
+  }
+  find_links();
   std::size_t lost = 0;
-  for (TouchingPair* old : ended) {
-    TouchingPair* heir = nullptr;
+  for (const GrippedPair& old : ended) {
+    const Link* heir = nullptr;
     double side = 1;
-    const auto is_fresh = [](const TouchingPair* p) { return p->origin == TouchingPair::Origin::fresh; };
-    for_each_node_pair(*old, [&](std::array<Index, 2> nodes, bool turned) {
+    const auto is_fresh = [](const Link& l) { return l.pair->origin == TouchingPair::Origin::fresh; };
+    for_each_node_pair(old.pair, [&](std::array<Index, 2> nodes, bool turned) {
       auto link = std::lower_bound(links.begin(), links.end(), nodes,
                                    [](const Link& a, const std::array<Index, 2>& b) { return a.nodes < b; });
       for (; link != links.end() && link->nodes == nodes; ++link) {
         const double same_side = link->turned == turned ? 1 : -1;
-        if (same_side * dot(old->normal, link->pair->normal) < 0.5) continue;
-        if (heir == nullptr || (is_fresh(link->pair) && !is_fresh(heir))) {
-          heir = link->pair;
+        if (same_side * dot(old.pair.normal, link->pair->normal) < 0.5) continue;
+        if (heir == nullptr || (is_fresh(*link) && !is_fresh(*heir))) {
+          heir = &*link;
           side = same_side;
         }
       }
     });
-    const bool whole = heir != nullptr && is_fresh(heir);
-    if (heir != nullptr && old->grip.pressed < 0) take_over(*heir, *old, side);
+    const bool whole = heir != nullptr && is_fresh(*heir);
+    if (heir != nullptr && old.grip.pressed < 0) take_over(*heir->pair, *heir->grip, old.grip, side);
     if (!whole) ended[lost++] = old;
   }
   ended.resize(lost);

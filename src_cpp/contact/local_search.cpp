@@ -25,7 +25,6 @@ constexpr double kOverhang = 0.1;
 constexpr double kNoGap = -1e-11;
 constexpr double kLeastSine = 0.05;
 constexpr double kOutOfCone = 0.1;
-constexpr std::int64_t kPiece = 64;  ///< nodes that one thread looks at together
 
 Vec3 at(const double* x, Index node) {
   return Vec3::load(x + 3 * static_cast<std::size_t>(node));
@@ -91,7 +90,37 @@ bool SurfaceContact::Stages::shares_element(Index row, Index segment) const {
   return shares;
 }
 
-void SurfaceContact::Stages::look_at_node(const double* x, Index row, std::vector<Hit>& found) {
+TouchingPair SurfaceContact::Stages::node_pair(Index row, Index segment, const FacePoint& point) const {
+  const Index* c = surface.corners(segment);
+  const std::array<double, 4>& shape = point.shape;
+  TouchingPair pair;
+  pair.nodes = {surface.nodes()[row], c[0], c[1], c[2], c[3]};
+  pair.count = c[3] == kNone ? 4 : 5;
+  pair.weights = {1, -shape[0], -shape[1], -shape[2], -shape[3]};
+  pair.first = row;
+  pair.second = segment;
+  pair.parts = {surface.part(row), surface.data(segment).part};
+  pair.gap = point.gap;
+  pair.normal = point.normal;
+  return pair;
+}
+
+void SurfaceContact::Stages::let_go(Index row, const FacePoint& under_held, Piece& piece) {
+  Hold& hold = holds[row];
+  if (hold.segment != kNone) piece.ended.push_back({node_pair(row, hold.segment, under_held), hold.grip});
+  hold = Hold{};
+}
+
+/// The pair is fresh unless the face holds the node already.
+void SurfaceContact::Stages::touch(Index row, Index segment, const FacePoint& point, Piece& piece) {
+  Hold& hold = holds[row];
+  piece.touches.push_back(node_pair(row, segment, point));
+  if (hold.segment == segment) piece.touches.back().origin = TouchingPair::Origin::same;
+  hold.segment = segment;
+  hold.xi = point.xi, hold.eta = point.eta;
+}
+
+void SurfaceContact::Stages::look_at_node(const double* x, Index row, Piece& piece) {
   const double travel = search.travel();
   if (wake[row] > travel) return;
   const Vec3 p = at(x, surface.nodes()[row]);
@@ -105,13 +134,16 @@ void SurfaceContact::Stages::look_at_node(const double* x, Index row, std::vecto
     const double radius = planes[held].radius;
     const bool behind = under_held.gap < kNoGap * radius && under_held.gap > -surface.data(held).height;
     if (behind && under_held.outside <= kBorder * radius - under_held.gap) {
-      found.push_back({row, held, under_held});
+      touch(row, held, under_held, piece);
       return;
     }
     overhangs = behind && holds[row].grip.pressed < 0 && under_held.outside <= kOverhang * radius;
   }
 
-  Hit hit{row, kNone, {}};
+  struct {
+    Index segment = kNone;
+    FacePoint point;
+  } hit;
   bool have_normal = false;
   Vec3 own_normal;
   double best = std::numeric_limits<double>::infinity();
@@ -160,12 +192,13 @@ void SurfaceContact::Stages::look_at_node(const double* x, Index row, std::vecto
     const double way_out = -point.gap / facing;
     if (way_out < best * (1 - 1e-9) && !shares_element(row, segment)) {
       best = way_out;
-      hit = {row, segment, point};
+      hit = {segment, point};
     }
   });
-  if (hit.segment == kNone && overhangs) hit = {row, held, under_held};
+  if (hit.segment == kNone && overhangs) hit = {held, under_held};
+  if (hit.segment != held) let_go(row, under_held, piece);
   wake[row] = hit.segment == kNone ? travel + room : 0;
-  if (hit.segment != kNone) found.push_back(hit);
+  if (hit.segment != kNone) touch(row, hit.segment, hit.point, piece);
 }
 
 /// Appendix F, with the normal held inside both edges' cones of face normals: only then does the way out of
@@ -217,8 +250,6 @@ bool SurfaceContact::Stages::edges_touch(const double* x, Index m, Index n, doub
     touch->parts = {surface.data(first.segments[0]).part, surface.data(second.segments[0]).part};
     touch->normal = normal;
     touch->gap = gap;
-    touch->stiffness = std::min(first.stiffness, second.stiffness);
-    touch->height = std::min(first.height, second.height);
   }
   return true;
 }
@@ -251,45 +282,12 @@ void SurfaceContact::local_search(const Arrays& arrays, int threads) {
   const std::int64_t faces = static_cast<std::int64_t>(s.active_segments.size());
   share_out(threads, faces, [&](std::int64_t i) { s.place_plane(x, s.active_segments[i]); });
   const std::int64_t nodes = static_cast<std::int64_t>(s.active_nodes.size());
-  s.piece_hits.resize(static_cast<std::size_t>((nodes + kPiece - 1) / kPiece));
-  Threads(threads).for_ranges(nodes, kPiece, [&](std::int64_t begin, std::int64_t end) {
-    std::vector<Stages::Hit>& found = s.piece_hits[begin / kPiece];
-    found.clear();
-    for (std::int64_t i = begin; i < end; ++i) s.look_at_node(x, s.active_nodes[i], found);
-  });
-  s.hits.clear();
-  for (const std::vector<Stages::Hit>& found : s.piece_hits) {
-    s.hits.insert(s.hits.end(), found.begin(), found.end());
-  }
-  std::swap(s.node_touches, s.old_node_touches);
-  s.node_touches.resize(s.hits.size());
-  share_out(threads, static_cast<std::int64_t>(s.hits.size()), [&](std::int64_t i) {
-    const Stages::Hit& hit = s.hits[i];
-    const Index row = hit.row;
-    const Index* c = s.surface.corners(hit.segment);
-    const std::array<double, 4>& shape = hit.point.shape;
-    TouchingPair& touch = s.node_touches[i] = TouchingPair{};
-    touch.nodes = {s.surface.nodes()[row], c[0], c[1], c[2], c[3]};
-    touch.weights = {1, -shape[0], -shape[1], -shape[2], -shape[3]};
-    touch.first_count = 1;
-    touch.count = c[3] == kNone ? 4 : 5;
-    touch.first = row;
-    touch.second = hit.segment;
-    touch.parts = {s.surface.part(row), s.surface.data(hit.segment).part};
-    touch.normal = hit.point.normal;
-    touch.gap = hit.point.gap;
-    const Surface::SegmentData& data = s.surface.data(hit.segment);
-    touch.stiffness = std::min(data.stiffness, s.surface.node_stiffness(row));
-    touch.height = data.height;
-    Stages::Hold& hold = s.holds[row];
-    hold.kept = hold.segment == hit.segment;
-    if (hold.kept) {
-      touch.origin = TouchingPair::Origin::same;
-      touch.grip = hold.grip;
-    }
-    hold.segment = hit.segment;
-    hold.xi = hit.point.xi, hold.eta = hit.point.eta;
-    hold.stamp = s.stamp;
+  s.pieces.resize(static_cast<std::size_t>((nodes + Stages::kPiece - 1) / Stages::kPiece));
+  Threads(threads).for_ranges(nodes, Stages::kPiece, [&](std::int64_t begin, std::int64_t end) {
+    Stages::Piece& piece = s.pieces[begin / Stages::kPiece];
+    piece.touches.clear();
+    piece.ended.clear();
+    for (std::int64_t i = begin; i < end; ++i) s.look_at_node(x, s.active_nodes[i], piece);
   });
 
   const std::int64_t edges = static_cast<std::int64_t>(s.active_edges.size());
@@ -306,7 +304,8 @@ void SurfaceContact::local_search(const Arrays& arrays, int threads) {
   s.edge_touches.resize(s.hit_edges.size());
   share_out(threads, static_cast<std::int64_t>(s.hit_edges.size()), [&](std::int64_t i) {
     double room = 0;
-    s.edges_touch(x, s.hit_edges[i][0], s.hit_edges[i][1], room, &s.edge_touches[i]);
+    s.edge_touches[i].grip = Grip{};
+    s.edges_touch(x, s.hit_edges[i][0], s.hit_edges[i][1], room, &s.edge_touches[i].pair);
   });
   s.hand_over();
 }

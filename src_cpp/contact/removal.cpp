@@ -16,11 +16,11 @@ void SurfaceContact::Stages::let_go_of_removed() {
     const bool edges = pair.first_count == 2;
     const bool gone = edges ? surface.is_removed_edge(pair.first) || surface.is_removed_edge(pair.second)
                             : surface.is_removed(pair.second) || !surface.on_surface(pair.first);
-    if (gone && !pair.ignored && pair.stored > 0) removed_touches.push_back(pair);
+    if (gone && !pair.ignored && pair.stored > 0) removed_pairs.push_back(pair);
     return gone;
   };
-  std::erase_if(node_touches, lost);
-  std::erase_if(edge_touches, lost);
+  for (Piece& piece : pieces) std::erase_if(piece.touches, lost);
+  std::erase_if(edge_touches, [&](const GrippedPair& edges) { return lost(edges.pair); });
   for (std::size_t row = 0; row < holds.size(); ++row) {
     const Index segment = holds[row].segment;
     if (segment == kNone) continue;

@@ -1,7 +1,10 @@
 /// What the stages of contact share: surface, candidates, and the pairs that touch.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,20 +26,29 @@ struct Grip {
   double stick_energy() const { return 0.5 * stiffness * dot(stick, stick); }
 };
 
+/// The force acts on the first `first_count` nodes by their weights, its opposite on the others by theirs.
 struct TouchingPair {
   std::array<Index, 5> nodes{};
+  std::uint8_t first_count = 1, count = 0;
+  enum class Origin : std::uint8_t {
+    same,
+    moved,
+    fresh
+  } origin = Origin::fresh;  ///< moved: springs are another pair's
+  bool ignored = false;      ///< edges only
   std::array<double, 5> weights{};
-  std::array<double, 5> per_mass{};
-  Index first_count = 1, count = 0;
   Index first = kNone, second = kNone;  ///< contact node (row) and segment, or two edges
   std::array<Index, 2> parts{kNone, kNone};
-  enum class Origin { same, moved, fresh } origin = Origin::fresh;  ///< moved: springs come from another pair
-  bool ignored = false;                                             ///< edges only
-  double gap = 0, stiffness = 0, height = 0;
+  double gap = 0;
   Vec3 normal;
-  Grip grip;
   Vec3 force;
   double stored = 0, heat = 0;
+  std::array<float, 5> per_mass{};  ///< 1/kg, rounded up
+};
+
+struct GrippedPair {
+  TouchingPair pair;
+  Grip grip;
 };
 
 /// Over threads where it pays for waking them.
@@ -47,6 +59,8 @@ void share_out(int threads, std::int64_t n, Body&& body) {
 }
 
 struct SurfaceContact::Stages {
+  static constexpr std::int64_t kPiece = 64;  ///< active nodes, or edges that touch: one thread works on them
+
   explicit Stages(const ContactSettings& s)
       : settings(s), surface(s.penalty_factor), search(s.cell_factor, s.buffer_factor, s.adaptive) {}
 
@@ -68,8 +82,6 @@ struct SurfaceContact::Stages {
   /// What holds a contact node: it touches one face at a time.
   struct Hold {
     Index segment = kNone;
-    std::int32_t stamp = 0;
-    bool kept = false;       // the same segment as a step ago
     double xi = 0, eta = 0;  // where it was on the face
     Grip grip;
   };
@@ -79,43 +91,59 @@ struct SurfaceContact::Stages {
     Vec3 centre, normal;
     double radius = 0, warp = 0;
   };
-  struct Hit {
-    Index row, segment;
-    FacePoint point;
-  };
-  /// A node of each side of a pair.
-  struct Link {
-    std::array<Index, 2> nodes;  // ascending
-    TouchingPair* pair;
-    bool turned;  // the second side's node comes first
-  };
-  std::vector<Hold> holds;                   // by contact node
-  std::vector<double> wake;                  // by contact node: travel before which it can't touch
-  std::vector<std::uint8_t> has_pairs;       // by contact node
-  std::vector<Index> active_nodes;           // with candidates
-  std::vector<std::uint8_t> is_partner;      // by segment
-  std::vector<Index> active_segments;        // candidates of some node
-  std::vector<Plane> planes;                 // by segment
-  std::vector<std::vector<Hit>> piece_hits;  // by piece of the active nodes
-  std::vector<Hit> hits;
-  std::vector<double> edge_wake;  // by edge
-  std::vector<std::uint8_t> edge_has_pairs;
-  std::vector<Index> active_edges;
-  std::vector<std::array<Index, 4>> edge_hits;  // by active edge: partners, kNone after the last
-  std::int32_t stamp = 0;
-  std::vector<std::array<Index, 2>> hit_edges;
-  std::vector<TouchingPair*> ended;      // in this step's local search
-  std::vector<std::int32_t> ended_here;  // by contact node: the last step in which a pair with it ended
-  std::vector<Link> links;
-  std::vector<TouchingPair> node_touches, old_node_touches, edge_touches, old_edge_touches;
-  std::vector<TouchingPair> removed_touches;  // since the last forces
-
   struct Deepest {
     double share = 0, depth = 0;
     Index node = kNone, element = kNone;
     std::array<Index, 2> parts{kNone, kNone};
     bool edges = false;
-  } worst;
+  };
+  /// Over some of the pairs.
+  struct Sums {
+    std::vector<BodyPair> bodies;
+    Deepest worst;
+    std::array<Index, 2> nodes;  // the least and the largest that a force acts on
+    Sums& start(const Deepest& worst_so_far) {
+      bodies.clear();
+      worst = worst_so_far;
+      nodes = {std::numeric_limits<Index>::max(), -1};
+      return *this;
+    }
+  };
+  /// What some of the active nodes touch.
+  struct Piece {
+    std::vector<TouchingPair> touches;
+    std::vector<GrippedPair> ended;  // in this step's local search
+    Sums sums;
+  };
+  /// A node of each side of a pair.
+  struct Link {
+    std::array<Index, 2> nodes;  // ascending
+    TouchingPair* pair;
+    Grip* grip;
+    bool turned;  // the second side's node comes first
+  };
+  std::vector<Hold> holds;               // by contact node
+  std::vector<double> wake;              // by contact node: travel before which it can't touch
+  std::vector<std::uint8_t> has_pairs;   // by contact node
+  std::vector<Index> active_nodes;       // with candidates
+  std::vector<std::uint8_t> is_partner;  // by segment
+  std::vector<Index> active_segments;    // candidates of some node
+  std::vector<Plane> planes;             // by segment
+  std::vector<Piece> pieces;             // of the active nodes
+  std::vector<double> edge_wake;         // by edge
+  std::vector<std::uint8_t> edge_has_pairs;
+  std::vector<Index> active_edges;
+  std::vector<std::array<Index, 4>> edge_hits;  // by active edge: partners, kNone after the last
+  std::int32_t stamp = 0;
+  std::vector<std::array<Index, 2>> hit_edges;
+  std::vector<GrippedPair> ended;        // in this step's local search
+  std::vector<std::int32_t> ended_here;  // by contact node: the last step in which a pair with it ended
+  std::vector<Link> links;
+  std::vector<GrippedPair> edge_touches, old_edge_touches;
+  std::vector<Sums> edge_sums;              // by piece of the edges that touch
+  std::vector<TouchingPair> removed_pairs;  // since the last forces
+
+  Deepest worst;
   std::vector<BodyPair> body_pairs;
   std::vector<std::string> part_names;
 
@@ -130,14 +158,48 @@ struct SurfaceContact::Stages {
   FacePoint project(const double* x, Vec3 p, Index segment, double xi = 0, double eta = 0) const;
   Vec3 node_normal(const double* x, Index row) const;
   bool shares_element(Index row, Index segment) const;
-  void look_at_node(const double* x, Index row, std::vector<Hit>& found);
+  TouchingPair node_pair(Index row, Index segment, const FacePoint& point) const;
+  void touch(Index row, Index segment, const FacePoint& point, Piece& piece);
+  void let_go(Index row, const FacePoint& under_held, Piece& piece);
+  void look_at_node(const double* x, Index row, Piece& piece);
   bool edges_touch(const double* x, Index m, Index n, double& room, TouchingPair* touch) const;
   void look_at_edge(const double* x, Index active);
+  void follow_edges();
+  void find_links();
   void hand_over();
   void let_go_of_removed();
   void bar_removed();
-  BodyPair& body_pair(const TouchingPair& pair);
-  void add_to_sums(const TouchingPair& pair);
+
+  double stiffness(const TouchingPair& pair) const;
+  double height(const TouchingPair& pair) const;
+  void enforce(TouchingPair& pair, Grip& grip, const Arrays& arrays, double step) const;
+  void add_to_sums(const TouchingPair& pair, Sums& sums) const;
+  void add_to_nodes(const Arrays& arrays, int threads) const;
+  void add_to_bodies(const Sums& sums);
+
+  /// `visit(sums, for_each_pair)`, with `for_each_pair(see)` that calls `see(pair, grip)`.
+  template <class Visit>
+  void for_each_piece(Visit&& visit) const {
+    for (const Piece& piece : pieces) {
+      visit(piece.sums, [&](auto&& see) {
+        for (const TouchingPair& pair : piece.touches) see(pair, holds[pair.first].grip);
+      });
+    }
+    for (std::size_t i = 0; i < edge_sums.size(); ++i) {
+      visit(edge_sums[i], [&](auto&& see) {
+        const std::size_t end = std::min(edge_touches.size(), (i + 1) * static_cast<std::size_t>(kPiece));
+        for (std::size_t k = i * kPiece; k < end; ++k) see(edge_touches[k].pair, edge_touches[k].grip);
+      });
+    }
+  }
+  /// `see(pair, grip)`
+  template <class See>
+  void for_each_pair(See&& see) const {
+    for (const Piece& piece : pieces) {
+      for (const TouchingPair& pair : piece.touches) see(pair, holds[pair.first].grip);
+    }
+    for (const GrippedPair& edges : edge_touches) see(edges.pair, edges.grip);
+  }
 };
 
 }  // namespace cdfp

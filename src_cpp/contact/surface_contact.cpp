@@ -11,7 +11,7 @@ namespace cdfp {
 
 namespace {
 
-constexpr std::int64_t kSpeedGrain = 4096;
+constexpr std::int64_t kSpeedGrain = 256;
 
 }  // namespace
 
@@ -36,12 +36,14 @@ void SurfaceContact::Stages::grow_to_surface() {
 
 void SurfaceContact::Stages::activate_node(const double* x, Index row) {
   wake[row] = 0;
-  search.node_segments().for_each(row, [&](Index segment) {
+  const auto take_partner = [&](Index segment) {
     if (is_partner[segment]) return;
     is_partner[segment] = 1;
     active_segments.push_back(segment);
     planes[segment].radius = segment_radius(x, segment);
-  });
+  };
+  search.node_segments().for_each(row, take_partner);
+  if (holds[row].segment != kNone) take_partner(holds[row].segment);
   if (has_pairs[row]) return;
   has_pairs[row] = 1;
   active_nodes.push_back(row);
@@ -130,7 +132,9 @@ void SurfaceContact::regular_search(const Arrays& arrays, int threads) {
   s.active_segments.clear();
   s.active_edges.clear();
   for (Index row = 0; row < s.surface.node_count(); ++row) {
-    if (!s.search.node_segments().empty(row)) s.activate_node(arrays.position.data(), row);
+    if (!s.search.node_segments().empty(row) || s.holds[row].segment != kNone) {
+      s.activate_node(arrays.position.data(), row);
+    }
   }
   for (Index edge = 0; edge < s.search.edge_edges().rows(); ++edge) {
     if (!s.search.edge_edges().empty(edge)) s.activate_edge(edge);
@@ -145,9 +149,13 @@ void SurfaceContact::adaptive_search(const Arrays& arrays) {
   s.search.adaptive(
       s.view(arrays), s.surface.renamed_segments(),
       s.settings.edge_edge ? std::span<const Index>(s.surface.renamed_edges()) : std::span<const Index>());
+  const Index first_new = s.searched_nodes;
   s.grow_to_surface();
   s.bar_removed();
   for (const Index row : s.search.touched_node_rows()) s.activate_node(arrays.position.data(), row);
+  for (Index row = first_new; row < s.surface.node_count(); ++row) {
+    if (s.holds[row].segment != kNone) s.activate_node(arrays.position.data(), row);
+  }
   for (const Index edge : s.search.touched_edge_rows()) s.activate_edge(edge);
   s.edge_hits.resize(s.active_edges.size());
 }
@@ -180,24 +188,23 @@ const ContactSearch& SurfaceContact::search() const {
 }
 
 std::vector<SurfaceContact::Touch> SurfaceContact::touches() const {
-  const Stages& s = *stages_;
   std::vector<Touch> all;
-  for (const std::vector<TouchingPair>* pairs : {&s.node_touches, &s.edge_touches}) {
-    for (const TouchingPair& p : *pairs) {
-      all.push_back({p.nodes,
-                     p.weights,
-                     p.first_count,
-                     p.count,
-                     {p.normal.x, p.normal.y, p.normal.z},
-                     p.gap,
-                     {p.force.x, p.force.y, p.force.z},
-                     {p.parts[0], p.parts[1]}});
-    }
-  }
+  stages_->for_each_pair([&](const TouchingPair& p, const Grip&) {
+    all.push_back({p.nodes,
+                   p.weights,
+                   p.first_count,
+                   p.count,
+                   {p.normal.x, p.normal.y, p.normal.z},
+                   p.gap,
+                   {p.force.x, p.force.y, p.force.z},
+                   {p.parts[0], p.parts[1]}});
+  });
   return all;
 }
 std::size_t SurfaceContact::touching_count() const {
-  return stages_->node_touches.size() + stages_->edge_touches.size();
+  std::size_t count = stages_->edge_touches.size();
+  for (const Stages::Piece& piece : stages_->pieces) count += piece.touches.size();
+  return count;
 }
 double SurfaceContact::stored_energy() const {
   double sum = 0;
@@ -242,12 +249,14 @@ std::vector<std::string> SurfaceContact::warnings() const {
 
 std::size_t SurfaceContact::memory() const {
   const Stages& s = *stages_;
-  return s.surface.memory() + s.search.memory() + s.holds.capacity() * sizeof(Stages::Hold) +
+  std::size_t pieces = 0;
+  for (const Stages::Piece& piece : s.pieces) {
+    pieces += sizeof piece + piece.touches.capacity() * sizeof(TouchingPair) +
+              piece.ended.capacity() * sizeof(GrippedPair) + piece.sums.bodies.capacity() * sizeof(BodyPair);
+  }
+  return s.surface.memory() + s.search.memory() + pieces + s.holds.capacity() * sizeof(Stages::Hold) +
          s.wake.capacity() * sizeof(double) + s.planes.capacity() * sizeof(Stages::Plane) +
-         s.hits.capacity() * sizeof(Stages::Hit) +
-         (s.node_touches.capacity() + s.old_node_touches.capacity() + s.edge_touches.capacity() +
-          s.old_edge_touches.capacity()) *
-             sizeof(TouchingPair);
+         (s.edge_touches.capacity() + s.old_edge_touches.capacity()) * sizeof(GrippedPair);
 }
 
 FaceProjection project_on_face(std::span<const double, 3> point, std::span<const double> corners) {

@@ -4,7 +4,7 @@ namespace cdfp {
 
 namespace {
 
-constexpr std::int64_t kGrain = 4096;
+constexpr std::int64_t kGrain = 256;
 
 /// Acceleration of a node in its free directions.
 Vec3 acceleration(const Nodes& nodes, Index n) {
