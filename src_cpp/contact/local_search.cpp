@@ -167,7 +167,7 @@ void SurfaceContact::Stages::look_at_node(const double* x, Index row, Piece& pie
     const double reach = (1 + kRidge) * (face.radius + travel);
     const double distance2 = dot(from_centre, from_centre);
     if (distance2 > (reach + deepest_gap) * (reach + deepest_gap)) {
-      room = std::min(room, std::sqrt(distance2) - reach - deepest_gap);
+      room = std::min(room, (std::sqrt(distance2) - reach - deepest_gap) / (1 + kRidge));
       return;
     }
     if (!have_normal) {
