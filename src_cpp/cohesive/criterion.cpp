@@ -48,7 +48,7 @@ void Criterion::list(std::span<const Index> elements, std::span<const Mat3> stre
   listed_.assign(elements.begin(), elements.end());
   stresses_.resize(listed_.size());
   norms_.resize(listed_.size());
-  threads.for_ranges(std::ssize(listed_), kPiece, [&](std::int64_t begin, std::int64_t end) {
+  threads.deal_ranges(std::ssize(listed_), kPiece, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
       stresses_[i] = stresses.empty() ? scene.stress(listed_[i]) : stresses[i];
       norms_[i] = norm_of(stresses_[i]);
@@ -146,7 +146,7 @@ void Criterion::find(std::span<const Index> candidates, std::span<const Mat3> ca
     able_ = wider;
   }
   found_.resize((able_.size() + kPiece - 1) / kPiece);
-  threads.for_ranges(std::ssize(able_), kPiece, [&](std::int64_t begin, std::int64_t end) {
+  threads.deal_ranges(std::ssize(able_), kPiece, [&](std::int64_t begin, std::int64_t end) {
     std::vector<OpenFacet>& here = found_[begin / kPiece];
     here.clear();
     for (std::int64_t i = begin; i < end; ++i) look_at_facets(able_[i], scene, here);

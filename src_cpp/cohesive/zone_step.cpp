@@ -31,13 +31,14 @@ void CohesiveZone::Points::add_force(const NodeArrays& nodes, double step, doubl
   const Threads awake = live.size() < kWorthwhile ? Threads(1) : threads;
   work.resize(std::max<std::size_t>(work.size(), awake.count()));
 
-  awake.for_ranges(static_cast<std::int64_t>(live.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t k = begin; k < end; ++k) turn(live[k], nodes);
-  });
+  awake.deal_ranges(static_cast<std::int64_t>(live.size()), kGrain,
+                    [&](std::int64_t begin, std::int64_t end) {
+                      for (std::int64_t k = begin; k < end; ++k) turn(live[k], nodes);
+                    });
   ask_users(nodes, step, time);
   balance_couples(nodes);
   const std::span<const Clusters::Cluster> all = clusters.all();
-  awake.for_ranges(static_cast<std::int64_t>(all.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
+  awake.deal_ranges(static_cast<std::int64_t>(all.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
     ClusterSolver& w = work[omp_get_thread_num()];
     for (std::int64_t k = begin; k < end; ++k) {
       if (all[k].slots > 0) solve_cluster(all[k], nodes, step, w);

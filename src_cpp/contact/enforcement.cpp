@@ -1,6 +1,7 @@
 /// Penalty and Coulomb friction at the pairs that touch (section 4.4, eqs. 25-30).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/stages.hpp"
 #include "core/require.hpp"
@@ -45,14 +46,15 @@ double heat_of_drag(Vec3 old_drag, Vec3 drag, Vec3 slip, double old_stick_energy
 }
 
 void bound_stiffness(TouchingPair& pair, Grip& grip, const double* mass, double step) {
-  double per_mass[2] = {0, 0};
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  double lightest[2] = {kInfinite, kInfinite};
   for (Index i = 0; i < pair.count; ++i) {
-    const double m = mass[pair.nodes[i]], inverse = m > 0 ? 1 / m : 0;
-    pair.per_mass[i] = static_cast<float>((1 + 1e-7) * inverse);
-    double& side = per_mass[i < pair.first_count ? 0 : 1];
-    side = std::max(side, inverse);
+    const double m = mass[pair.nodes[i]] > 0 ? mass[pair.nodes[i]] : kInfinite;
+    pair.mass[i] = static_cast<float>(m);
+    double& side = lightest[i < pair.first_count ? 0 : 1];
+    side = std::min(side, m);
   }
-  const double softness = step * step * (per_mass[0] + per_mass[1]);
+  const double softness = step * step * (1 / lightest[0] + 1 / lightest[1]);
   if (grip.stiffness * softness > kStableShare) grip.stiffness = kStableShare / softness;
 }
 
@@ -75,12 +77,6 @@ double SurfaceContact::Stages::stiffness(const TouchingPair& pair) const {
              : std::min(surface.data(pair.second).stiffness, surface.node_stiffness(pair.first));
 }
 
-double SurfaceContact::Stages::height(const TouchingPair& pair) const {
-  return pair.first_count == 2
-             ? std::min(surface.edge_data(pair.first).height, surface.edge_data(pair.second).height)
-             : surface.data(pair.second).height;
-}
-
 void SurfaceContact::Stages::enforce(TouchingPair& pair, Grip& grip, const Arrays& arrays,
                                      double step) const {
   const double friction = settings.friction;
@@ -88,7 +84,7 @@ void SurfaceContact::Stages::enforce(TouchingPair& pair, Grip& grip, const Array
   const double approach = dot(pair.normal, slip);
   if (pair.origin == TouchingPair::Origin::fresh) {
     grip.stiffness = stiffness(pair);
-    pair.ignored = pair.first_count == 2 && std::min(approach, 0.0) - pair.gap > kSideways * height(pair);
+    pair.ignored = pair.first_count == 2 && std::min(approach, 0.0) - pair.gap > kSideways * pair.height;
     if (pair.ignored) return;
   }
   bound_stiffness(pair, grip, arrays.mass.data(), step);
@@ -134,12 +130,11 @@ void SurfaceContact::Stages::add_to_sums(const TouchingPair& pair, Sums& sums) c
     const auto [least, largest] = std::minmax_element(pair.nodes.begin(), pair.nodes.begin() + pair.count);
     sums.nodes = {std::min(sums.nodes[0], *least), std::max(sums.nodes[1], *largest)};
   }
-  const double tall = height(pair);
-  if (-pair.gap > sums.worst.share * tall) {
+  if (-pair.gap > sums.worst.share * pair.height) {
     const bool edges = pair.first_count == 2;
     const Index segment = edges ? surface.edge_data(pair.second).segments[0] : pair.second;
-    sums.worst = {-pair.gap / tall, -pair.gap, pair.nodes[0], surface.data(segment).element,
-                  pair.parts,       edges};
+    sums.worst = {-pair.gap / pair.height,       -pair.gap,  pair.nodes[0],
+                  surface.data(segment).element, pair.parts, edges};
   }
 }
 
@@ -205,7 +200,7 @@ void SurfaceContact::add_force(const Arrays& arrays, double step, int threads) {
     }
   }
   s.ended.clear();
-  Threads(threads).for_each(std::ssize(s.pieces), [&](std::int64_t i) {
+  Threads(threads).deal_ranges(std::ssize(s.pieces), 1, [&](std::int64_t i, std::int64_t) {
     Stages::Sums& sums = s.pieces[i].sums.start(s.worst);
     for (TouchingPair& pair : s.pieces[i].touches) {
       s.enforce(pair, s.holds[pair.first].grip, arrays, step);
@@ -213,14 +208,14 @@ void SurfaceContact::add_force(const Arrays& arrays, double step, int threads) {
     }
   });
   s.edge_sums.resize((s.edge_touches.size() + Stages::kPiece - 1) / Stages::kPiece);
-  Threads(threads).for_ranges(std::ssize(s.edge_touches), Stages::kPiece,
-                              [&](std::int64_t begin, std::int64_t end) {
-                                Stages::Sums& sums = s.edge_sums[begin / Stages::kPiece].start(s.worst);
-                                for (std::int64_t i = begin; i < end; ++i) {
-                                  s.enforce(s.edge_touches[i].pair, s.edge_touches[i].grip, arrays, step);
-                                  s.add_to_sums(s.edge_touches[i].pair, sums);
-                                }
-                              });
+  Threads(threads).deal_ranges(std::ssize(s.edge_touches), Stages::kPiece,
+                               [&](std::int64_t begin, std::int64_t end) {
+                                 Stages::Sums& sums = s.edge_sums[begin / Stages::kPiece].start(s.worst);
+                                 for (std::int64_t i = begin; i < end; ++i) {
+                                   s.enforce(s.edge_touches[i].pair, s.edge_touches[i].grip, arrays, step);
+                                   s.add_to_sums(s.edge_touches[i].pair, sums);
+                                 }
+                               });
   s.add_to_nodes(arrays, threads);
   s.for_each_piece([&](const Stages::Sums& sums, auto&&) { s.add_to_bodies(sums); });
   for (BodyPair& bodies : s.body_pairs) {
@@ -234,7 +229,7 @@ double SurfaceContact::stiffness_over_mass() const {
   stages_->for_each_pair([&](const TouchingPair& pair, const Grip& grip) {
     if (!(pair.stored > 0)) return;
     for (Index i = 0; i < pair.count; ++i) {
-      sums.emplace_back(pair.nodes[i], 2 * grip.stiffness * std::abs(pair.weights[i]) * pair.per_mass[i]);
+      sums.emplace_back(pair.nodes[i], 2 * grip.stiffness * std::abs(pair.weights[i]) / pair.mass[i]);
     }
   });
   std::sort(sums.begin(), sums.end());

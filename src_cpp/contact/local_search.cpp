@@ -101,6 +101,7 @@ TouchingPair SurfaceContact::Stages::node_pair(Index row, Index segment, const F
   pair.second = segment;
   pair.parts = {surface.part(row), surface.data(segment).part};
   pair.gap = point.gap;
+  pair.height = surface.data(segment).height;
   pair.normal = point.normal;
   return pair;
 }
@@ -250,6 +251,7 @@ bool SurfaceContact::Stages::edges_touch(const double* x, Index m, Index n, doub
     touch->parts = {surface.data(first.segments[0]).part, surface.data(second.segments[0]).part};
     touch->normal = normal;
     touch->gap = gap;
+    touch->height = std::min(first.height, second.height);
   }
   return true;
 }
@@ -283,7 +285,7 @@ void SurfaceContact::local_search(const Arrays& arrays, int threads) {
   share_out(threads, faces, [&](std::int64_t i) { s.place_plane(x, s.active_segments[i]); });
   const std::int64_t nodes = static_cast<std::int64_t>(s.active_nodes.size());
   s.pieces.resize(static_cast<std::size_t>((nodes + Stages::kPiece - 1) / Stages::kPiece));
-  Threads(threads).for_ranges(nodes, Stages::kPiece, [&](std::int64_t begin, std::int64_t end) {
+  Threads(threads).deal_ranges(nodes, Stages::kPiece, [&](std::int64_t begin, std::int64_t end) {
     Stages::Piece& piece = s.pieces[begin / Stages::kPiece];
     piece.touches.clear();
     piece.ended.clear();

@@ -39,11 +39,11 @@ struct TouchingPair {
   std::array<double, 5> weights{};
   Index first = kNone, second = kNone;  ///< contact node (row) and segment, or two edges
   std::array<Index, 2> parts{kNone, kNone};
-  double gap = 0;
+  double gap = 0, height = 0;  ///< m; the segment's, or the lower edge's
   Vec3 normal;
   Vec3 force;
   double stored = 0, heat = 0;
-  std::array<float, 5> per_mass{};  ///< 1/kg, rounded up
+  std::array<float, 5> mass{};  ///< kg
 };
 
 struct GrippedPair {
@@ -171,7 +171,6 @@ struct SurfaceContact::Stages {
   void bar_removed();
 
   double stiffness(const TouchingPair& pair) const;
-  double height(const TouchingPair& pair) const;
   void enforce(TouchingPair& pair, Grip& grip, const Arrays& arrays, double step) const;
   void add_to_sums(const TouchingPair& pair, Sums& sums) const;
   void add_to_nodes(const Arrays& arrays, int threads) const;

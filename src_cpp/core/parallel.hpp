@@ -34,6 +34,19 @@ class Threads {
     for_each(pieces, [&](std::int64_t p) { body(p * grain, std::min(n, (p + 1) * grain)); });
   }
 
+  /// The same, dealt out in turn: for work that is unlike from place to place.
+  template <class Body>
+  void deal_ranges(std::int64_t n, std::int64_t grain, Body&& body) const {
+    const std::int64_t pieces = (n + grain - 1) / grain;
+    const auto piece = [&](std::int64_t p) { body(p * grain, std::min(n, (p + 1) * grain)); };
+    if (count_ == 1 || pieces < 2) {
+      for (std::int64_t p = 0; p < pieces; ++p) piece(p);
+      return;
+    }
+#pragma omp parallel for schedule(static, 1) num_threads(count_)
+    for (std::int64_t p = 0; p < pieces; ++p) piece(p);
+  }
+
  private:
   int count_;
 };
