@@ -76,6 +76,28 @@ TEST(Forces, PenetrationFromBeforePushesNothing) {
   EXPECT_NEAR(scene.contact.deepest_penetration(), 2e-5, 1e-12);
 }
 
+/// Then no search finds the pair any more, but its springs hold on.
+TEST(Forces, NodeDeeperThanTheBufferStaysHeld) {
+  ContactSettings settings;
+  settings.buffer_factor = 0.05;
+  Scene scene = tip_on_block(-1e-6, 1e-6 / 1e-9, settings);
+  const auto look = [&] {
+    scene.contact.regular_search(scene.arrays());
+    scene.contact.local_search(scene.arrays());
+    scene.contact.add_force(scene.arrays(), 1e-9);
+  };
+  look();
+  ASSERT_EQ(scene.contact.touching_count(), 1u);
+  const double first = scene.contact.touches()[0].force[2];
+  for (Index n = 0; n < scene.node_count(); ++n) {
+    if (scene.body[n] == 1) scene.x[3 * n + 2] -= 99e-6;
+  }
+  look();
+  EXPECT_LT(scene.contact.search().buffer(), 90e-6);
+  ASSERT_EQ(scene.contact.touching_count(), 1u);
+  EXPECT_NEAR(scene.contact.touches()[0].force[2], 100 * first, 1e-6 * first);
+}
+
 TEST(Forces, DeepPenetrationIsReportedWithItsPair) {
   Scene scene = tip_on_block(-1e-4, 0);
   scene.contact.name_parts({"floor", "die"});
@@ -315,30 +337,36 @@ TEST(CrackFaces, RubbleKeepsTheEnergyBalance) {
   }
 }
 
+/// Many pairs, so that every thread has nodes to sum forces at.
 TEST(Threads, DoNotChangeABit) {
-  std::vector<double> x[2];
-  std::size_t touched[2] = {0, 0};
-  for (int run = 0; run < 2; ++run) {
+  std::vector<double> x;
+  std::array<double, 3> force{};
+  for (const int threads : {1, 2, 5}) {
     ContactSettings settings;
     settings.friction = 0.2;
     Scene scene(settings);
-    scene.threads = run == 0 ? 1 : 2;
-    scene.add({.bricks = {4, 4, 1}, .size = {6e-3, 6e-3, 1e-3}, .centre = {0, 0, -0.5e-3}});
-    scene.add({.bricks = {3, 3, 3},
-               .size = {3e-3, 3e-3, 3e-3},
-               .centre = {0, 0, 2.1e-3},
-               .turn = test::rotation({1, 2, 0.3}, 0.4),
+    scene.threads = threads;
+    scene.add({.bricks = {20, 20, 1}, .size = {20e-3, 20e-3, 1e-3}, .centre = {0, 0, -0.5e-3}});
+    scene.add({.bricks = {16, 16, 2},
+               .size = {16.5e-3, 16.5e-3, 2e-3},
+               .centre = {0, 0, 1.0e-3},
+               .turn = test::rotation({0, 0, 1}, 0.4),
                .velocity = {2, 0, -10},
                .loose = true});
     const double step = 0.7 * scene.stable_step(1.0);
-    for (int i = 0; i < 150; ++i) {
+    std::size_t touched = 0;
+    for (int i = 0; i < 40; ++i) {
       scene.step(step);
-      touched[run] += scene.contact.touching_count();
+      touched += scene.contact.touching_count();
     }
-    EXPECT_GT(touched[run], 100u);
-    x[run] = scene.x;
+    EXPECT_GT(touched, 40u * 500u);
+    if (threads == 1) {
+      x = scene.x;
+      force = scene.contact.body_pairs()[0].force;
+    }
+    EXPECT_EQ(scene.x, x) << threads << " threads";
+    EXPECT_EQ(scene.contact.body_pairs()[0].force, force) << threads << " threads";
   }
-  EXPECT_EQ(x[0], x[1]);
 }
 
 }  // namespace
