@@ -273,16 +273,30 @@ Model impact_case(Index columns) {
   return model;
 }
 
+/// Wall seconds of an advance.
+double advance_seconds(Simulation& simulation, std::int64_t steps) {
+  const double before = simulation.summary().wall_s;
+  simulation.advance(steps);
+  return simulation.summary().wall_s - before;
+}
+
 void measure_stages(Results& results) {
   std::printf("\nThe paper's case, 1,200 steps (72 us: impact and most cracks); ns an element and step.\n\n");
-  std::vector<Summary> summaries;
+  std::vector<Simulation> simulations;
   for (const int threads : thread_counts()) {
     Model model = impact_case(67);
     model.threads = threads;
-    Simulation simulation(std::move(model));
-    simulation.advance(1200);
-    summaries.push_back(simulation.summary());
+    simulations.emplace_back(std::move(model));
   }
+  // Side by side in slices: what else the machine does for a while falls on both of a slice.
+  std::vector<double> efficiencies;
+  for (int slice = 0; slice < 24; ++slice) {
+    std::vector<double> seconds;
+    for (Simulation& simulation : simulations) seconds.push_back(advance_seconds(simulation, 50));
+    if (seconds.size() == 2) efficiencies.push_back(seconds[0] / seconds[1] / 2);
+  }
+  std::vector<Summary> summaries;
+  for (const Simulation& simulation : simulations) summaries.push_back(simulation.summary());
   const double updates = double(summaries[0].elements) * 1200;
   std::printf("%-18s", "stage");
   for (const Summary& s : summaries) std::printf(" %6d threads %7s", s.threads, "share");
@@ -313,9 +327,12 @@ void measure_stages(Results& results) {
     std::printf("10,000 steps at this pace: %.1f s on %d threads\n", whole, s.threads);
     if (s.threads == 2) results.want(whole <= 40, "the paper's case above 40 s");
   }
-  if (summaries.size() == 2) {
-    const double efficiency = summaries[0].wall_s / summaries[1].wall_s / 2;
-    std::printf("efficiency on two threads: %.0f %%\n", 100 * efficiency);
+  if (!efficiencies.empty()) {
+    std::sort(efficiencies.begin(), efficiencies.end());
+    const double efficiency = efficiencies[efficiencies.size() / 2];
+    std::printf("efficiency on two threads: %.0f %% (median of slices of 50 steps; %.0f to %.0f %%)\n",
+                100 * efficiency, 100 * efficiencies.front(), 100 * efficiencies.back());
+    results.add("case efficiency", summaries[0].elements, 2, 100 * efficiency, "%");
     results.want(efficiency >= 0.85, "two threads below 85 % efficiency");
   }
 }

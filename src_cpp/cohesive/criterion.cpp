@@ -48,26 +48,26 @@ void Criterion::list(std::span<const Index> elements, std::span<const Mat3> stre
   listed_.assign(elements.begin(), elements.end());
   stresses_.resize(listed_.size());
   norms_.resize(listed_.size());
+  is_able_.resize(listed_.size());
   threads.deal_ranges(std::ssize(listed_), kPiece, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
-      stresses_[i] = stresses.empty() ? scene.stress(listed_[i]) : stresses[i];
+      const Index element = listed_[i];
+      stresses_[i] = stresses.empty() ? scene.stress(element) : stresses[i];
       norms_[i] = norm_of(stresses_[i]);
+      is_able_[i] = static_cast<std::uint8_t>(norms_[i] >= least_norm(element));
+      place_[element] = static_cast<Index>(i);
     }
   });
-  for (std::size_t i = 0; i < listed_.size(); ++i) place_[listed_[i]] = static_cast<Index>(i);
-}
-
-void Criterion::find_able() {
   able_.clear();
-  is_able_.resize(listed_.size());
   for (std::size_t i = 0; i < listed_.size(); ++i) {
-    is_able_[i] = static_cast<std::uint8_t>(norms_[i] >= least_norm(listed_[i]));
     if (is_able_[i] != 0) able_.push_back(listed_[i]);
   }
 }
 
-void Criterion::forget() {
-  for (const Index e : listed_) place_[e] = kNone;
+void Criterion::forget(const Threads& threads) {
+  threads.for_ranges(std::ssize(listed_), kPiece, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) place_[listed_[i]] = kNone;
+  });
 }
 
 std::vector<Index> Criterion::with_neighbours(const Topology& topology) const {
@@ -137,10 +137,9 @@ void Criterion::find(std::span<const Index> candidates, std::span<const Mat3> ca
   if (candidates.empty()) return;
   const Scene scene{topology, position, stress};
   list(candidates, candidate_stresses, scene, threads);
-  find_able();
   if (recovery_ == StressRecovery::nodal) {
     const std::vector<Index> wider = with_neighbours(topology);
-    forget();
+    forget(threads);
     list(wider, {}, scene, threads);
     is_able_.assign(wider.size(), 1);
     able_ = wider;
@@ -154,7 +153,7 @@ void Criterion::find(std::span<const Index> candidates, std::span<const Mat3> ca
   for (const std::vector<OpenFacet>& piece : found_) open.insert(open.end(), piece.begin(), piece.end());
   std::sort(open.begin(), open.end(),
             [](const OpenFacet& a, const OpenFacet& b) { return a.lower < b.lower; });
-  forget();
+  forget(threads);
 }
 
 }  // namespace cdfp

@@ -51,8 +51,7 @@ class Criterion {
   }
   void list(std::span<const Index> elements, std::span<const Mat3> stresses, const Scene& scene,
             const Threads& threads);
-  void find_able();
-  void forget();
+  void forget(const Threads& threads);
   std::vector<Index> with_neighbours(const Topology& topology) const;
   void look_at_facets(Index element, const Scene& scene, std::vector<OpenFacet>& open) const;
   Mat3 nodal_stress(const FacetNodes& facet, Index part, const Scene& scene) const;

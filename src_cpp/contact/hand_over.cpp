@@ -61,10 +61,9 @@ void SurfaceContact::Stages::find_links() {
       }
     });
   };
-  for (Piece& piece : pieces) {
-    for (TouchingPair& pair : piece.touches) {
-      if (ended_here[pair.first] == stamp) link(pair, holds[pair.first].grip);
-    }
+  for (const Index row : ended_rows) {
+    Hold& hold = holds[row];
+    if (hold.segment != kNone) link(pieces[hold.piece].touches[hold.place], hold.grip);
   }
   for (GrippedPair& edges : edge_touches) link(edges.pair, edges.grip);
   std::stable_sort(links.begin(), links.end(),
@@ -77,8 +76,13 @@ void SurfaceContact::Stages::hand_over() {
   follow_edges();
   if (ended.empty()) return;
 
+  ended_rows.clear();
   for (const GrippedPair& old : ended) {
-    for (Index i = 0; i < old.pair.count; ++i) ended_here[surface.row(old.pair.nodes[i])] = stamp;
+    for (Index i = 0; i < old.pair.count; ++i) {
+      const Index row = surface.row(old.pair.nodes[i]);
+      if (ended_here[row] != stamp) ended_rows.push_back(row);
+      ended_here[row] = stamp;
+    }
   }
   find_links();
   std::size_t lost = 0;

@@ -118,6 +118,8 @@ void SurfaceContact::Stages::touch(Index row, Index segment, const FacePoint& po
   piece.touches.push_back(node_pair(row, segment, point));
   if (hold.segment == segment) piece.touches.back().origin = TouchingPair::Origin::same;
   hold.segment = segment;
+  hold.piece = static_cast<Index>(&piece - pieces.data());
+  hold.place = static_cast<Index>(piece.touches.size()) - 1;
   hold.xi = point.xi, hold.eta = point.eta;
 }
 

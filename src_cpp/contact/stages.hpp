@@ -82,7 +82,8 @@ struct SurfaceContact::Stages {
   /// What holds a contact node: it touches one face at a time.
   struct Hold {
     Index segment = kNone;
-    double xi = 0, eta = 0;  // where it was on the face
+    Index piece = 0, place = 0;  // of its touch among those of the pieces
+    double xi = 0, eta = 0;      // where it was on the face
     Grip grip;
   };
   /// A segment's mean plane, and how far its points lie from centre (when it became a candidate: since then
@@ -138,6 +139,7 @@ struct SurfaceContact::Stages {
   std::vector<std::array<Index, 2>> hit_edges;
   std::vector<GrippedPair> ended;        // in this step's local search
   std::vector<std::int32_t> ended_here;  // by contact node: the last step in which a pair with it ended
+  std::vector<Index> ended_rows;         // those of this step
   std::vector<Link> links;
   std::vector<GrippedPair> edge_touches, old_edge_touches;
   std::vector<Sums> edge_sums;              // by piece of the edges that touch

@@ -225,7 +225,7 @@ std::span<const Mat3> ElementForce::critical_stresses(std::span<const double> po
   if (b.critical.empty()) return {};
   for (const BlockGroup& group : b.groups) {
     if (!group.plan.cracks) continue;
-    threads.for_ranges(
+    threads.deal_ranges(
         static_cast<std::int64_t>(group.blocks()), 8, [&](std::int64_t begin, std::int64_t end) {
           std::array<Lanes, 6 * kRows> stress;
           for (auto block = static_cast<std::size_t>(begin); block < static_cast<std::size_t>(end); ++block) {
