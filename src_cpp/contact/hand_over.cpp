@@ -10,13 +10,11 @@ namespace cdfp {
 
 namespace {
 
+/// `visit(a, b)` for a node of each side.
 template <class Visit>
 void for_each_node_pair(const TouchingPair& pair, Visit&& visit) {
   for (Index i = 0; i < pair.first_count; ++i) {
-    for (Index j = pair.first_count; j < pair.count; ++j) {
-      const Index a = pair.nodes[i], b = pair.nodes[j];
-      visit(std::array<Index, 2>{std::min(a, b), std::max(a, b)}, b < a);
-    }
+    for (Index j = pair.first_count; j < pair.count; ++j) visit(pair.nodes[i], pair.nodes[j]);
   }
 }
 
@@ -51,23 +49,41 @@ void SurfaceContact::Stages::follow_edges() {
   }
 }
 
-/// The pairs that have a node on each side where some pair ended.
-void SurfaceContact::Stages::find_links() {
-  links.clear();
-  const auto link = [&](TouchingPair& pair, Grip& grip) {
-    for_each_node_pair(pair, [&](std::array<Index, 2> nodes, bool turned) {
-      if (ended_here[surface.row(nodes[0])] == stamp && ended_here[surface.row(nodes[1])] == stamp) {
-        links.push_back({nodes, &pair, &grip, turned});
-      }
-    });
-  };
-  for (const Index row : ended_rows) {
-    Hold& hold = holds[row];
-    if (hold.segment != kNone) link(pieces[hold.piece].touches[hold.place], hold.grip);
+/// Of edges that touch, with a node on each side where some pair ended.
+void SurfaceContact::Stages::link_edges() {
+  for (const GrippedPair& old : ended) {
+    for (Index i = 0; i < old.pair.count; ++i) ended_here[surface.row(old.pair.nodes[i])] = stamp;
   }
-  for (GrippedPair& edges : edge_touches) link(edges.pair, edges.grip);
+  links.clear();
+  for (GrippedPair& edges : edge_touches) {
+    for_each_node_pair(edges.pair, [&](Index a, Index b) {
+      if (ended_here[surface.row(a)] != stamp || ended_here[surface.row(b)] != stamp) return;
+      links.push_back({{std::min(a, b), std::max(a, b)}, &edges, b < a});
+    });
+  }
   std::stable_sort(links.begin(), links.end(),
                    [](const Link& a, const Link& b) { return a.nodes < b.nodes; });
+}
+
+/// `see(pair, grip, side)` for the pairs that touch with `a` and `b` on either side; side: 1 if `a` is on the
+/// first, or -1.
+template <class See>
+void SurfaceContact::Stages::for_each_between(Index a, Index b, See&& see) {
+  const auto see_touch = [&](Index node, Index on_face, double side) {
+    Hold& hold = holds[surface.row(node)];
+    if (hold.segment == kNone) return;
+    TouchingPair& pair = pieces[hold.piece].touches[hold.place];
+    const auto corners = std::span(pair.nodes).first(pair.count).subspan(1);
+    if (std::find(corners.begin(), corners.end(), on_face) != corners.end()) see(pair, hold.grip, side);
+  };
+  see_touch(a, b, 1);
+  see_touch(b, a, -1);
+  const std::array<Index, 2> nodes{std::min(a, b), std::max(a, b)};
+  auto link = std::lower_bound(links.begin(), links.end(), nodes,
+                               [](const Link& l, const std::array<Index, 2>& n) { return l.nodes < n; });
+  for (; link != links.end() && link->nodes == nodes; ++link) {
+    see(link->edges->pair, link->edges->grip, link->turned == (b < a) ? 1 : -1);
+  }
 }
 
 void SurfaceContact::Stages::hand_over() {
@@ -76,34 +92,24 @@ void SurfaceContact::Stages::hand_over() {
   follow_edges();
   if (ended.empty()) return;
 
-  ended_rows.clear();
-  for (const GrippedPair& old : ended) {
-    for (Index i = 0; i < old.pair.count; ++i) {
-      const Index row = surface.row(old.pair.nodes[i]);
-      if (ended_here[row] != stamp) ended_rows.push_back(row);
-      ended_here[row] = stamp;
-    }
-  }
-  find_links();
+  link_edges();
   std::size_t lost = 0;
   for (const GrippedPair& old : ended) {
-    const Link* heir = nullptr;
-    double side = 1;
-    const auto is_fresh = [](const Link& l) { return l.pair->origin == TouchingPair::Origin::fresh; };
-    for_each_node_pair(old.pair, [&](std::array<Index, 2> nodes, bool turned) {
-      auto link = std::lower_bound(links.begin(), links.end(), nodes,
-                                   [](const Link& a, const std::array<Index, 2>& b) { return a.nodes < b; });
-      for (; link != links.end() && link->nodes == nodes; ++link) {
-        const double same_side = link->turned == turned ? 1 : -1;
-        if (same_side * dot(old.pair.normal, link->pair->normal) < 0.5) continue;
-        if (heir == nullptr || (is_fresh(*link) && !is_fresh(*heir))) {
-          heir = &*link;
-          side = same_side;
-        }
-      }
+    TouchingPair* heir = nullptr;
+    Grip* heirs_grip = nullptr;
+    double heirs_side = 1;
+    const auto is_fresh = [](const TouchingPair& p) { return p.origin == TouchingPair::Origin::fresh; };
+    for_each_node_pair(old.pair, [&](Index a, Index b) {
+      for_each_between(a, b, [&](TouchingPair& pair, Grip& grip, double side) {
+        if (side * dot(old.pair.normal, pair.normal) < 0.5) return;
+        if (heir != nullptr && (!is_fresh(pair) || is_fresh(*heir))) return;
+        heir = &pair;
+        heirs_grip = &grip;
+        heirs_side = side;
+      });
     });
     const bool whole = heir != nullptr && is_fresh(*heir);
-    if (heir != nullptr && old.grip.pressed < 0) take_over(*heir->pair, *heir->grip, old.grip, side);
+    if (heir != nullptr && old.grip.pressed < 0) take_over(*heir, *heirs_grip, old.grip, heirs_side);
     if (!whole) ended[lost++] = old;
   }
   ended.resize(lost);

@@ -116,11 +116,10 @@ struct SurfaceContact::Stages {
     std::vector<GrippedPair> ended;  // in this step's local search
     Sums sums;
   };
-  /// A node of each side of a pair.
+  /// Edges that touch, by a node of each.
   struct Link {
     std::array<Index, 2> nodes;  // ascending
-    TouchingPair* pair;
-    Grip* grip;
+    GrippedPair* edges;
     bool turned;  // the second side's node comes first
   };
   std::vector<Hold> holds;               // by contact node
@@ -139,7 +138,6 @@ struct SurfaceContact::Stages {
   std::vector<std::array<Index, 2>> hit_edges;
   std::vector<GrippedPair> ended;        // in this step's local search
   std::vector<std::int32_t> ended_here;  // by contact node: the last step in which a pair with it ended
-  std::vector<Index> ended_rows;         // those of this step
   std::vector<Link> links;
   std::vector<GrippedPair> edge_touches, old_edge_touches;
   std::vector<Sums> edge_sums;              // by piece of the edges that touch
@@ -167,7 +165,9 @@ struct SurfaceContact::Stages {
   bool edges_touch(const double* x, Index m, Index n, double& room, TouchingPair* touch) const;
   void look_at_edge(const double* x, Index active);
   void follow_edges();
-  void find_links();
+  void link_edges();
+  template <class See>
+  void for_each_between(Index a, Index b, See&& see);
   void hand_over();
   void let_go_of_removed();
   void bar_removed();
