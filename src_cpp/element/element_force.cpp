@@ -45,7 +45,7 @@ struct ElementForce::Blocks : ElementBlocks {
 ElementForce::Blocks::Blocks(const Model& model)
     : ElementBlocks(model), steps(groups.size()), critical_now(block_count, 0), is_awake(block_count, 0) {
   if (std::any_of(groups.begin(), groups.end(), [](const BlockGroup& g) { return g.plan.cracks; })) {
-    critical_set.assign((places.size() + 63) / 64, 0);
+    critical_set.assign((static_cast<std::size_t>(element_count()) + 63) / 64, 0);
     critical_before.assign(critical_set.size(), 0);
   }
 }
@@ -132,17 +132,19 @@ ElementForce::ElementForce(const Model& model) : blocks_(std::make_unique<Blocks
 ElementForce::~ElementForce() = default;
 
 void ElementForce::add_mass(std::span<double> mass) const {
-  for (std::size_t e = 0; e < blocks_->places.size(); ++e) {
-    const auto& [group, slot] = blocks_->places[e];
-    if (group == kNone) continue;
-    const std::int32_t* offsets = blocks_->groups[group].corner_offsets(slot);
-    for (int corner = 0; corner < blocks_->groups[group].corners(); ++corner)
-      mass[offsets[corner * kLanes] / 3] += blocks_->corner_masses[e];
+  for (Index e = 0; e < blocks_->element_count(); ++e) {
+    const auto [g, slot] = blocks_->place(e);
+    if (g == kNone) continue;
+    const BlockGroup& group = blocks_->groups[g];
+    const double of_element = cdfp::corner_mass(group, slot);
+    const std::int32_t* offsets = group.corner_offsets(slot);
+    for (int corner = 0; corner < group.corners(); ++corner) mass[offsets[corner * kLanes] / 3] += of_element;
   }
 }
 
 double ElementForce::corner_mass(Index element) const {
-  return blocks_->corner_masses[element];
+  const Blocks::Place place = blocks_->place(element);
+  return place.group == kNone ? 0 : cdfp::corner_mass(blocks_->groups[place.group], place.slot);
 }
 
 std::span<const Index> ElementForce::first_corners() const {
@@ -180,10 +182,10 @@ ElementForce::Elasticity ElementForce::shown_elasticity(Index part) const {
 }
 
 double ElementForce::mean_state(Index element, int state) const {
-  const Blocks::Place& place = blocks_->places[element];
+  const Blocks::Place place = blocks_->place(element);
   const UserPoints* user = place.group == kNone ? nullptr : blocks_->groups[place.group].user.get();
   if (!user || state >= user->law().states) return std::numeric_limits<double>::quiet_NaN();
-  return user->mean_state(static_cast<std::size_t>(place.slot), state);
+  return user->mean_state(place.slot, state);
 }
 
 void ElementForce::add_force(std::span<const double> position, std::span<double> force, double step,
@@ -253,23 +255,23 @@ void ElementForce::set_least_strength(Index part, double strength) {
 }
 
 Mat3 ElementForce::stress(Index element, std::span<const double> position) const {
-  const Blocks::Place& place = blocks_->places[element];
+  const Blocks::Place place = blocks_->place(element);
   if (place.group == kNone) return {};
-  return element_stress(blocks_->groups[place.group], static_cast<std::size_t>(place.slot), position);
+  return element_stress(blocks_->groups[place.group], place.slot, position);
 }
 
 void ElementForce::corner_force(Index element, std::span<const double> position,
                                 std::span<double> force) const {
-  const Blocks::Place& place = blocks_->places[element];
+  const Blocks::Place place = blocks_->place(element);
   if (place.group == kNone) {
     std::fill(force.begin(), force.end(), 0.0);
     return;
   }
-  element_force(blocks_->groups[place.group], static_cast<std::size_t>(place.slot), position, force);
+  element_force(blocks_->groups[place.group], place.slot, position, force);
 }
 
 void ElementForce::replace_node(Index element, Index corner, Index node) {
-  const auto& [group, slot] = blocks_->places[element];
+  const auto [group, slot] = blocks_->place(element);
   if (group != kNone) blocks_->groups[group].corner_offsets(slot)[corner * kLanes] = 3 * node;
 }
 
@@ -323,12 +325,11 @@ std::vector<PartEnergy> ElementForce::energies(std::span<const double> position,
 }
 
 Index ElementForce::first_inverted(std::span<const double> position) const {
-  for (std::size_t e = 0; e < blocks_->places.size(); ++e) {
-    const Blocks::Place& place = blocks_->places[e];
+  for (Index e = 0; e < blocks_->element_count(); ++e) {
+    const Blocks::Place place = blocks_->place(e);
     if (place.group == kNone) continue;
-    const double volume =
-        element_volume(blocks_->groups[place.group], static_cast<std::size_t>(place.slot), position);
-    if (!(volume > 0) || !std::isfinite(volume)) return static_cast<Index>(e);
+    const double volume = element_volume(blocks_->groups[place.group], place.slot, position);
+    if (!(volume > 0) || !std::isfinite(volume)) return e;
   }
   return kNone;
 }
@@ -353,13 +354,15 @@ void ElementForce::archive(Archive& a) {
 
 std::size_t ElementForce::memory() const {
   const Blocks& b = *blocks_;
-  std::size_t bytes = b.places.size() * (sizeof(Blocks::Place) + sizeof(double));
+  const auto count = static_cast<std::size_t>(b.element_count());
+  std::size_t bytes = 2 * count * sizeof(Index);  // slots and first corners
   for (const BlockGroup& group : b.groups) {
     bytes += group.elements.size() * sizeof(Index) + group.offsets.size() * sizeof(std::int32_t);
-    bytes += (group.constants.size() + group.state.size() + group.step_terms.size()) * sizeof(Lanes);
+    bytes += (group.constants.size() + group.state.size()) * sizeof(Lanes);
+    bytes += group.step_terms.size() * sizeof(SingleLanes);
     if (group.user) bytes += group.user->memory();
   }
-  return b.places.empty() ? 0 : bytes / b.places.size();
+  return count == 0 ? 0 : bytes / count;
 }
 
 }  // namespace cdfp
