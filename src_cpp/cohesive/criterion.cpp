@@ -32,9 +32,8 @@ double norm_of(const Mat3& a) {
 
 }  // namespace
 
-Criterion::Criterion(const Model& model) : strength_(model), recovery_(model.stress_recovery) {
-  place_.assign(model.mesh.types.size(), kNone);
-}
+Criterion::Criterion(const Model& model)
+    : strength_(model), recovery_(model.stress_recovery), known_(model.mesh.types.size()) {}
 
 /// A little less, as a norm and a traction round differently.
 double Criterion::least_norm(Index element) const {
@@ -54,7 +53,7 @@ void Criterion::list(std::span<const Index> elements, std::span<const Mat3> stre
       norms_[i] = norm_of(stresses_[i]);
     }
   });
-  for (std::size_t i = 0; i < listed_.size(); ++i) place_[listed_[i]] = static_cast<Index>(i);
+  known_.take(listed_);
 }
 
 void Criterion::find_able() {
@@ -67,7 +66,7 @@ void Criterion::find_able() {
 }
 
 void Criterion::forget() {
-  for (const Index e : listed_) place_[e] = kNone;
+  known_.drop(listed_);
 }
 
 std::vector<Index> Criterion::with_neighbours(const Topology& topology) const {
@@ -106,12 +105,12 @@ void Criterion::look_at_facets(Index element, const Scene& scene, std::vector<Op
   const CohesiveLaw* law = strength_.law_of(element);
   if (!law) return;
   const bool nodal = recovery_ == StressRecovery::nodal;
-  const double own_norm = norms_[place_[element]];
+  const double own_norm = norms_[known_.place(element)];
   for (Index f = 0; f < scene.topology.facet_count(element); ++f) {
     const FacetUse use{element, f}, mate = scene.topology.mate(use);
     if (mate.element == kNone || mate.element >= scene.topology.bulk_count()) continue;
     if (strength_.part_of(mate.element) != strength_.part_of(element)) continue;
-    const Index place = place_[mate.element];
+    const Index place = known_.place(mate.element);
     if (mate.element < element && place != kNone && is_able_[place] != 0) continue;  // its turn
     const FacetUse lower = mate.element > element ? use : mate;
     const double strength = strength_.of(lower, std::max(element, mate.element));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/number_set.hpp"
 #include "element/element_blocks.hpp"
 #include "element/one_point.hpp"
 #include "element/single_element.hpp"
@@ -22,18 +23,11 @@ struct ElementForce::Blocks : ElementBlocks {
   bool has_moved(const BlockGroup& group, std::size_t block, std::span<const double> position,
                  std::span<const double> reference) const;
   void list_critical();
-  /// Place of a critical element in the list of them.
-  Index place_of_critical(Index element) const {
-    const auto word = static_cast<std::size_t>(element) / 64;
-    const std::uint64_t before = critical_set[word] & ((std::uint64_t{1} << (element % 64)) - 1);
-    return critical_before[word] + static_cast<Index>(std::popcount(before));
-  }
 
   std::vector<StepConstants> steps;         ///< one a group
   std::vector<std::uint64_t> critical_now;  ///< one a block, bit l: element l of the block
   std::vector<std::uint8_t> is_awake;       ///< one a block
-  std::vector<std::uint64_t> critical_set;  ///< one bit an element; empty if no part cracks
-  std::vector<Index> critical_before;       ///< in words before each
+  NumberSet critical_set;                   ///< void if no part cracks
   std::vector<Index> critical;
   std::vector<Mat3> critical_stress;
   std::vector<Index> deleted;  ///< by the last step of users' laws
@@ -45,8 +39,7 @@ struct ElementForce::Blocks : ElementBlocks {
 ElementForce::Blocks::Blocks(const Model& model)
     : ElementBlocks(model), steps(groups.size()), critical_now(block_count, 0), is_awake(block_count, 0) {
   if (std::any_of(groups.begin(), groups.end(), [](const BlockGroup& g) { return g.plan.cracks; })) {
-    critical_set.assign((static_cast<std::size_t>(element_count()) + 63) / 64, 0);
-    critical_before.assign(critical_set.size(), 0);
+    critical_set = NumberSet(static_cast<std::size_t>(element_count()));
   }
 }
 
@@ -110,22 +103,17 @@ void ElementForce::Blocks::clear_stiffness(BlockGroup& group, std::size_t slot) 
 /// Through a set of bits, so that any number of elements comes out ascending in linear time.
 void ElementForce::Blocks::list_critical() {
   critical.clear();
-  std::fill(critical_set.begin(), critical_set.end(), 0);
+  critical_set.clear();
   for (const BlockGroup& group : groups) {
     if (!group.plan.cracks) continue;
     for (std::size_t block = 0; block < group.blocks(); ++block) {
       for (std::uint64_t bits = critical_now[group.first_block + block]; bits; bits &= bits - 1) {
-        const Index e = group.elements[block * kBlock + static_cast<std::size_t>(std::countr_zero(bits))];
-        critical_set[static_cast<std::size_t>(e) / 64] |= std::uint64_t{1} << (e % 64);
+        critical_set.insert(
+            group.elements[block * kBlock + static_cast<std::size_t>(std::countr_zero(bits))]);
       }
     }
   }
-  for (std::size_t word = 0; word < critical_set.size(); ++word) {
-    critical_before[word] = static_cast<Index>(critical.size());
-    for (std::uint64_t bits = critical_set[word]; bits; bits &= bits - 1) {
-      critical.push_back(static_cast<Index>(64 * word) + std::countr_zero(bits));
-    }
-  }
+  critical_set.list(critical);
 }
 
 ElementForce::ElementForce(const Model& model) : blocks_(std::make_unique<Blocks>(model)) {}
@@ -209,7 +197,7 @@ void ElementForce::add_force(std::span<const double> position, std::span<double>
         b.run(tasks[static_cast<std::size_t>(i)], position, force, reference);
     }
   }
-  if (!b.critical_set.empty()) b.list_critical();
+  if (!b.critical_set.is_void()) b.list_critical();
 }
 
 std::span<const Index> ElementForce::critical_elements() const {
@@ -239,7 +227,7 @@ std::span<const Mat3> ElementForce::critical_stresses(std::span<const double> po
               const auto s = [&](std::size_t k) {
                 return stress[6 * (slot / kLanes) + k].value[slot % kLanes];
               };
-              b.critical_stress[b.place_of_critical(group.elements[block * kBlock + slot])] = {
+              b.critical_stress[b.critical_set.place(group.elements[block * kBlock + slot])] = {
                   {Vec3{s(0), s(3), s(5)}, Vec3{s(3), s(1), s(4)}, Vec3{s(5), s(4), s(2)}}};
             }
           }
@@ -349,7 +337,7 @@ void ElementForce::archive(Archive& a) {
   a("elements.awake", b.is_awake);
   a("elements.critical", b.critical_now);
   a("elements.critical_stress", b.critical_stress);
-  if (a.reads() && !b.critical_set.empty()) b.list_critical();
+  if (a.reads() && !b.critical_set.is_void()) b.list_critical();
 }
 
 std::size_t ElementForce::memory() const {
