@@ -64,17 +64,22 @@ Model model_of(const Topology& topology, std::span<const double> coordinates,
 }  // namespace
 
 struct CohesiveCriterion::Kept {
-  Criterion criterion;
-  std::vector<Index> law_of_element;
+  Model model;
+  Criterion criterion{model};
+  std::vector<Index> law_of_element{};
   std::vector<double>
-      least;  ///< Pa2 by element: square of the stress norm below which none of its facets opens
-  std::vector<Index> candidates;
-  std::vector<OpenFacet> open;
+      least{};  ///< Pa2 by element: square of the stress norm below which none of its facets opens
+  std::vector<Index> candidates{};
+  std::vector<OpenFacet> open{};
 };
 
 CohesiveCriterion::CohesiveCriterion(const Topology& topology, std::span<const double> coordinates,
                                      const Settings& settings)
-    : kept_(new Kept{Criterion(model_of(topology, coordinates, settings)), {}, {}, {}, {}}) {
+    : kept_(new Kept{model_of(topology, coordinates, settings)}) {
+  Mesh& mesh = kept_->model.mesh;
+  mesh.coordinates = {};
+  mesh.connectivity = {};
+  mesh.types = {};
   for (Index e = 0; e < topology.bulk_count(); ++e) {
     kept_->law_of_element.push_back(settings.law_of_part[settings.parts[e]]);
     const double least = (1 - 1e-9) * kept_->criterion.least_norm(e);

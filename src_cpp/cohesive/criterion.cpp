@@ -32,9 +32,8 @@ double norm_of(const Mat3& a) {
 
 }  // namespace
 
-Criterion::Criterion(const Model& model) : strength_(model), recovery_(model.stress_recovery) {
-  place_.assign(model.mesh.types.size(), kNone);
-}
+Criterion::Criterion(const Model& model)
+    : strength_(model), recovery_(model.stress_recovery), known_(model.mesh.types.size()) {}
 
 /// A little less, as a norm and a traction round differently.
 double Criterion::least_norm(Index element) const {
@@ -55,19 +54,13 @@ void Criterion::list(std::span<const Index> elements, std::span<const Mat3> stre
       stresses_[i] = stresses.empty() ? scene.stress(element) : stresses[i];
       norms_[i] = norm_of(stresses_[i]);
       is_able_[i] = static_cast<std::uint8_t>(norms_[i] >= least_norm(element));
-      place_[element] = static_cast<Index>(i);
     }
   });
+  known_.take(listed_);
   able_.clear();
   for (std::size_t i = 0; i < listed_.size(); ++i) {
     if (is_able_[i] != 0) able_.push_back(listed_[i]);
   }
-}
-
-void Criterion::forget(const Threads& threads) {
-  threads.for_ranges(std::ssize(listed_), kPiece, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i) place_[listed_[i]] = kNone;
-  });
 }
 
 std::vector<Index> Criterion::with_neighbours(const Topology& topology) const {
@@ -106,12 +99,12 @@ void Criterion::look_at_facets(Index element, const Scene& scene, std::vector<Op
   const CohesiveLaw* law = strength_.law_of(element);
   if (!law) return;
   const bool nodal = recovery_ == StressRecovery::nodal;
-  const double own_norm = norms_[place_[element]];
+  const double own_norm = norms_[known_.place(element)];
   for (Index f = 0; f < scene.topology.facet_count(element); ++f) {
     const FacetUse use{element, f}, mate = scene.topology.mate(use);
     if (mate.element == kNone || mate.element >= scene.topology.bulk_count()) continue;
     if (strength_.part_of(mate.element) != strength_.part_of(element)) continue;
-    const Index place = place_[mate.element];
+    const Index place = known_.place(mate.element);
     if (mate.element < element && place != kNone && is_able_[place] != 0) continue;  // its turn
     const FacetUse lower = mate.element > element ? use : mate;
     const double strength = strength_.of(lower, std::max(element, mate.element));
@@ -139,7 +132,7 @@ void Criterion::find(std::span<const Index> candidates, std::span<const Mat3> ca
   list(candidates, candidate_stresses, scene, threads);
   if (recovery_ == StressRecovery::nodal) {
     const std::vector<Index> wider = with_neighbours(topology);
-    forget(threads);
+    known_.drop(listed_);
     list(wider, {}, scene, threads);
     is_able_.assign(wider.size(), 1);
     able_ = wider;
@@ -153,7 +146,7 @@ void Criterion::find(std::span<const Index> candidates, std::span<const Mat3> ca
   for (const std::vector<OpenFacet>& piece : found_) open.insert(open.end(), piece.begin(), piece.end());
   std::sort(open.begin(), open.end(),
             [](const OpenFacet& a, const OpenFacet& b) { return a.lower < b.lower; });
-  forget(threads);
+  known_.drop(listed_);
 }
 
 }  // namespace cdfp

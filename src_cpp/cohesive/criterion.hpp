@@ -9,6 +9,7 @@
 #include "cdfp/model.hpp"
 #include "cdfp/topology.hpp"
 #include "cohesive/facet_strength.hpp"
+#include "core/number_set.hpp"
 #include "core/parallel.hpp"
 #include "core/vec3.hpp"
 
@@ -21,6 +22,7 @@ struct OpenFacet {
 
 class Criterion {
  public:
+  /// The model's mesh must stay.
   explicit Criterion(const Model& model);
 
   /// Facets that reach their strength, in ascending order of `lower`. `candidates`: ascending numbers of all
@@ -47,11 +49,11 @@ class Criterion {
     const std::function<Mat3(Index)>& stress;
   };
   Mat3 stress_of(Index element, const Scene& scene) const {
-    return place_[element] == kNone ? scene.stress(element) : stresses_[place_[element]];
+    const Index place = known_.place(element);
+    return place == kNone ? scene.stress(element) : stresses_[place];
   }
   void list(std::span<const Index> elements, std::span<const Mat3> stresses, const Scene& scene,
             const Threads& threads);
-  void forget(const Threads& threads);
   std::vector<Index> with_neighbours(const Topology& topology) const;
   void look_at_facets(Index element, const Scene& scene, std::vector<OpenFacet>& open) const;
   Mat3 nodal_stress(const FacetNodes& facet, Index part, const Scene& scene) const;
@@ -59,11 +61,11 @@ class Criterion {
   FacetStrength strength_;
   StressRecovery recovery_;
   std::vector<Index> listed_;  ///< elements whose stress is known, ascending
+  NumberSet known_;            ///< the same
   std::vector<Mat3> stresses_;
   std::vector<double> norms_;
   std::vector<std::uint8_t> is_able_;
-  std::vector<Index> able_;   ///< those of them whose facets are looked at
-  std::vector<Index> place_;  ///< of each element in that list, or kNone
+  std::vector<Index> able_;  ///< those of them whose facets are looked at
   std::vector<std::vector<OpenFacet>> found_;
 };
 

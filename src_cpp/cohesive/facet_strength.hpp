@@ -1,6 +1,7 @@
 /// The strength of each facet of a cracking part: its law's, as it varies over the body.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "cdfp/model.hpp"
@@ -10,7 +11,7 @@ namespace cdfp {
 
 class FacetStrength {
  public:
-  /// Copies what it needs; the model may go.
+  /// The model's mesh must stay.
   explicit FacetStrength(const Model& model);
 
   /// The law of the elements' part, or none.
@@ -36,7 +37,7 @@ class FacetStrength {
 
   std::vector<CohesiveLaw> laws_;
   std::vector<std::int32_t> law_of_part_;  ///< -1: the part does not crack
-  std::vector<Index> part_of_element_;
+  std::span<const Index> part_of_element_;
   std::vector<double> shares_;
   std::vector<double> area_;   ///< m2, six an element; empty if no law needs it
   std::vector<double> least_;  ///< by element; empty if strength follows the part's law alone

@@ -54,8 +54,8 @@ Index Surface::add_segment(const SurfaceContact::Segment& segment) {
 
   if (segment.element >= static_cast<Index>(first_segment_.size())) {
     lengthen(first_segment_, static_cast<std::size_t>(segment.element) + 1, kNone);
-    lengthen(first_edge_, first_segment_.size(), kNone);
   }
+  append(first_edge_, kNone);
   for (Index other = first_segment_[segment.element]; other != kNone; other = next_segment_[other]) {
     add_edge_between(number, other);
   }
@@ -71,13 +71,12 @@ void Surface::add_edge_between(Index segment, Index other) {
   for (Index i = 0; i < size; ++i) {
     const Index from = a[i], to = a[(i + 1) % size];
     if (!shared(from) || !shared(to)) continue;
-    const Index element = data_[segment].element;
     edges_.insert(edges_.end(), {from, to});
     edge_data_.push_back({{segment, other},
                           0.5 * (data_[segment].stiffness + data_[other].stiffness),
                           std::min(data_[segment].height, data_[other].height)});
-    append(next_edge_, first_edge_[element]);
-    first_edge_[element] = edge_count() - 1;
+    append(next_edge_, first_edge_[segment]);
+    first_edge_[segment] = edge_count() - 1;
     return;
   }
 }
@@ -92,12 +91,12 @@ void Surface::rename(Index element, Index old_node, Index new_node) {
       attach(c);
       renamed_segments_.push_back(s);
     }
-  }
-  for (Index e = first_edge_[element]; e != kNone; e = next_edge_[e]) {
-    for (Index i = 2 * e; i < 2 * e + 2; ++i) {
-      if (edges_[i] != old_node) continue;
-      edges_[i] = new_node;
-      renamed_edges_.push_back(e);
+    for (Index e = first_edge_[s]; e != kNone; e = next_edge_[e]) {
+      for (Index i = 2 * e; i < 2 * e + 2; ++i) {
+        if (edges_[i] != old_node) continue;
+        edges_[i] = new_node;
+        renamed_edges_.push_back(e);
+      }
     }
   }
 }
@@ -111,12 +110,12 @@ bool Surface::remove(Index element) {
     nodes[3] = kNone;
     data_[s].height = 0;
     ++removed_;
+    for (Index e = first_edge_[s]; e != kNone; e = next_edge_[e]) {
+      edges_[2 * static_cast<std::size_t>(e) + 1] = edges_[2 * static_cast<std::size_t>(e)];
+      edge_data_[e].height = 0;
+    }
   }
-  for (Index e = first_edge_[element]; e != kNone; e = next_edge_[e]) {
-    edges_[2 * static_cast<std::size_t>(e) + 1] = edges_[2 * static_cast<std::size_t>(e)];
-    edge_data_[e].height = 0;
-  }
-  first_segment_[element] = first_edge_[element] = kNone;
+  first_segment_[element] = kNone;
   return true;
 }
 

@@ -18,7 +18,7 @@ class Surface {
     Index part;
   };
   struct EdgeData {
-    std::array<Index, 2> segments;  ///< both of one element
+    std::array<Index, 2> segments;  ///< both of one element, the later one first
     double stiffness;
     double height;  ///< 0 once removed
   };
@@ -90,8 +90,9 @@ class Surface {
   std::vector<EdgeData> edge_data_;
   std::vector<Index> row_of_node_;
   std::vector<double> node_stiffness_;
-  std::vector<Index> incident_, next_incident_;  // chains of corners (4 * segment + i) by contact node
-  std::vector<Index> first_segment_, next_segment_, first_edge_, next_edge_;  // chains by element
+  std::vector<Index> incident_, next_incident_;      // chains of corners (4 * segment + i) by contact node
+  std::vector<Index> first_segment_, next_segment_;  // chains by element
+  std::vector<Index> first_edge_, next_edge_;        // chains by the later one of an edge's segments
   std::vector<Index> renamed_segments_, renamed_edges_;
 };
 

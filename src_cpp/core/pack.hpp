@@ -141,6 +141,11 @@ CDFP_INLINE T load(const double* p) {
     return Pack(*reinterpret_cast<const Pack::Vector*>(p));
   }
 }
+/// From consecutive floats, likewise.
+CDFP_INLINE Pack load_single(const float* p) {
+  typedef float Vector __attribute__((vector_size(4 * kWidth)));
+  return Pack(__builtin_convertvector(*reinterpret_cast<const Vector*>(p), Pack::Vector));
+}
 CDFP_INLINE void store(double* p, double a) {
   *p = a;
 }

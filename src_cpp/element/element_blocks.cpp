@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -166,9 +167,16 @@ double exact_of(const BlockGroup& group, const Mesh& mesh, Index first) {
                          part.density);
 }
 
+/// For bounds, which stay bounds.
+float rounded_up(double value) {
+  const auto nearest = static_cast<float>(value);
+  return nearest < value ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
+}
+
 /// Where each element's corners start in the connectivity.
 std::vector<Index> first_corners_of(const Mesh& mesh) {
   std::vector<Index> first{0};
+  first.reserve(mesh.types.size() + 1);
   for (Index e = 0; e < mesh.element_count(); ++e) {
     const ElementType type = mesh.types[e];
     if (type != ElementType::hexahedron && type != ElementType::tetrahedron && type != ElementType::wedge) {
@@ -222,14 +230,11 @@ void ElementBlocks::sort_into_groups(const Model& model, const Threads& threads)
 
   const auto count = static_cast<std::size_t>(mesh.element_count());
   std::vector<std::uint8_t> prism(count), inverted(count);
-  corner_masses.assign(count, 0);
   threads.for_each(mesh.element_count(), [&](std::int64_t e) {
-    const std::optional<PartPlan>& plan = plans[mesh.parts[e]];
-    if (!plan) return;
+    if (!plans[mesh.parts[e]]) return;
     const Shape shape = shape_of(mesh, mesh.types[e], first_corner[e]);
     prism[e] = shape.prism;
     inverted[e] = shape.inverted;
-    corner_masses[e] = plan->constants.density * shape.volume / (first_corner[e + 1] - first_corner[e]);
   });
   if (const auto bad = std::find(inverted.begin(), inverted.end(), 1); bad != inverted.end()) {
     const auto e = bad - inverted.begin();
@@ -250,7 +255,7 @@ void ElementBlocks::sort_into_groups(const Model& model, const Threads& threads)
         .push_back({{centre[0], centre[1], centre[2]}, e});
   }
   blocks_a_task_ = std::clamp<std::size_t>(deformable / kBlock / kTasksWanted, 1, kMostBlocksATask);
-  places.resize(count);
+  slots_.assign(count, kNone);
   for (std::size_t m = 0; m < members.size(); ++m) {
     if (members[m].empty()) continue;
     order_in_runs(members[m], blocks_a_task_ * kBlock);
@@ -270,9 +275,9 @@ void ElementBlocks::sort_into_groups(const Model& model, const Threads& threads)
                      {},
                      {},
                      nullptr};
+    group.elements.reserve(members[m].size());
     for (const Centroid& member : members[m]) {
-      places[member.element] = {static_cast<std::int32_t>(groups.size()),
-                                static_cast<std::int32_t>(group.elements.size())};
+      slots_[member.element] = static_cast<Index>(block_count * kBlock + group.elements.size());
       group.elements.push_back(member.element);
     }
     block_count += group.blocks();
@@ -280,11 +285,20 @@ void ElementBlocks::sort_into_groups(const Model& model, const Threads& threads)
   }
 }
 
+ElementBlocks::Place ElementBlocks::place(Index element) const {
+  const Index slot = slots_[static_cast<std::size_t>(element)];
+  if (slot == kNone) return {kNone, 0};
+  std::size_t group = groups.size() - 1;
+  while (groups[group].first_block * kBlock > static_cast<std::size_t>(slot)) --group;
+  return {static_cast<std::int32_t>(group),
+          static_cast<std::size_t>(slot) - groups[group].first_block * kBlock};
+}
+
 /// Before `fill`, since the law's first answer may be what the constants follow from.
 void ElementBlocks::start_user_law(BlockGroup& group, const Mesh& mesh) {
   std::vector<UserPoints::Element> elements;
   for (const Index e : group.elements) {
-    const double volume = corner_masses[e] * group.corners() / group.plan.constants.density;
+    const double volume = shape_of(mesh, mesh.types[e], first_corner[e]).volume;
     UserPoints::Element element{e, std::cbrt(volume), Mat3::identity()};
     if (group.corners() != 4) {
       const Eigen::Matrix3d frame =
@@ -347,11 +361,11 @@ void ElementBlocks::fill(BlockGroup& group, const Mesh& mesh, const Threads& thr
       terms = group.plan.full ? full_terms(geometry, part, part.density)
                               : one_point_terms(geometry, part, g, part.density);
     }
-    Lanes* at = &group.step_terms[4 * row];
-    at[0].value[lane] = terms.material;
-    at[1].value[lane] = terms.hourglass;
-    at[2].value[lane] = terms.coupling;
-    at[3].value[lane] = terms.geometric;
+    SingleLanes* at = &group.step_terms[4 * row];
+    at[0].value[lane] = rounded_up(terms.material);
+    at[1].value[lane] = rounded_up(terms.hourglass);
+    at[2].value[lane] = rounded_up(terms.coupling);
+    at[3].value[lane] = rounded_up(terms.geometric);
   });
 }
 
@@ -368,7 +382,7 @@ void ElementBlocks::tighten_step_terms(const Mesh& mesh) {
   double highest = 0;
   for (BlockGroup& group : groups) {
     for (std::size_t slot = 0; slot < group.elements.size(); ++slot) {
-      const Lanes* at = &group.step_terms[slot / kLanes * 4];
+      const SingleLanes* at = &group.step_terms[slot / kLanes * 4];
       const std::size_t lane = slot % kLanes;
       const StepTerms terms{at[0].value[lane], at[1].value[lane], at[2].value[lane], at[3].value[lane]};
       highest = std::max(highest, std::max(terms.material, terms.hourglass));
@@ -382,11 +396,11 @@ void ElementBlocks::tighten_step_terms(const Mesh& mesh) {
   for (const auto& [bound, group, slot] : candidates) {
     if (bound <= kSlack * highest) break;
     const double exact = exact_of(*group, mesh, first_corner[group->elements[slot]]);
-    Lanes* at = &group->step_terms[slot / kLanes * 4];
+    SingleLanes* at = &group->step_terms[slot / kLanes * 4];
     const std::size_t lane = slot % kLanes;
     const double material = at[0].value[lane], hourglass = at[1].value[lane];
     at[2].value[lane] =
-        std::max(0.0, (exact - std::max(material, hourglass)) / std::sqrt(material * hourglass));
+        rounded_up(std::max(0.0, (exact - std::max(material, hourglass)) / std::sqrt(material * hourglass)));
     highest = std::max(highest, exact);
   }
 }

@@ -26,9 +26,10 @@ struct BlockGroup {
   PartPlan plan;
   std::size_t first_block;      ///< among the blocks of all groups
   std::vector<Index> elements;  ///< of each slot; lanes of the last block may be idle
-  std::vector<Lanes> constants, state, step_terms;
-  std::vector<std::int32_t> offsets;  ///< [row][corner][lane], 3 * node
-  std::unique_ptr<UserPoints> user;   ///< of a user's law
+  std::vector<Lanes> constants, state;
+  std::vector<SingleLanes> step_terms;  ///< four a row, rounded up
+  std::vector<std::int32_t> offsets;    ///< [row][corner][lane], 3 * node
+  std::unique_ptr<UserPoints> user;     ///< of a user's law
 
   int corners() const { return kernel->corners; }
 
@@ -57,8 +58,8 @@ struct BlockGroup {
 
 struct ElementBlocks {
   struct Place {
-    std::int32_t group = kNone;  ///< kNone: of a rigid part
-    std::int32_t slot = 0;
+    std::int32_t group;  ///< kNone: of a rigid part
+    std::size_t slot;
   };
   /// Neighbouring blocks that one thread works on in turn, so that their shared nodes stay in its cache.
   struct Task {
@@ -68,11 +69,12 @@ struct ElementBlocks {
 
   explicit ElementBlocks(const Model& model);
 
+  Index element_count() const { return static_cast<Index>(slots_.size()); }
+  Place place(Index element) const;
+
   const Kernels& kernels = choose_kernels();
   std::vector<BlockGroup> groups;
-  std::vector<Place> places;        ///< one an element
-  std::vector<Index> first_corner;  ///< of each element in the mesh's connectivity, and the end
-  std::vector<double> corner_masses;
+  std::vector<Index> first_corner;         ///< of each element in the mesh's connectivity, and the end
   std::vector<std::vector<Task>> colours;  ///< tasks of one colour share no node
   std::size_t block_count = 0;
   std::size_t part_count = 0;
@@ -84,6 +86,7 @@ struct ElementBlocks {
   void tighten_step_terms(const Mesh& mesh);
   void colour_tasks(Index node_count);
 
+  std::vector<Index> slots_;  ///< of each element, counted through all blocks of all groups; kNone: rigid
   std::size_t blocks_a_task_ = 1;
 };
 

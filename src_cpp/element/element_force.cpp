@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/number_set.hpp"
 #include "element/element_blocks.hpp"
 #include "element/one_point.hpp"
 #include "element/single_element.hpp"
@@ -22,18 +23,11 @@ struct ElementForce::Blocks : ElementBlocks {
   bool has_moved(const BlockGroup& group, std::size_t block, std::span<const double> position,
                  std::span<const double> reference) const;
   void list_critical();
-  /// Place of a critical element in the list of them.
-  Index place_of_critical(Index element) const {
-    const auto word = static_cast<std::size_t>(element) / 64;
-    const std::uint64_t before = critical_set[word] & ((std::uint64_t{1} << (element % 64)) - 1);
-    return critical_before[word] + static_cast<Index>(std::popcount(before));
-  }
 
   std::vector<StepConstants> steps;         ///< one a group
   std::vector<std::uint64_t> critical_now;  ///< one a block, bit l: element l of the block
   std::vector<std::uint8_t> is_awake;       ///< one a block
-  std::vector<std::uint64_t> critical_set;  ///< one bit an element; empty if no part cracks
-  std::vector<Index> critical_before;       ///< in words before each
+  NumberSet critical_set;                   ///< void if no part cracks
   std::vector<Index> critical;
   std::vector<Mat3> critical_stress;
   std::vector<Index> deleted;  ///< by the last step of users' laws
@@ -45,8 +39,7 @@ struct ElementForce::Blocks : ElementBlocks {
 ElementForce::Blocks::Blocks(const Model& model)
     : ElementBlocks(model), steps(groups.size()), critical_now(block_count, 0), is_awake(block_count, 0) {
   if (std::any_of(groups.begin(), groups.end(), [](const BlockGroup& g) { return g.plan.cracks; })) {
-    critical_set.assign((places.size() + 63) / 64, 0);
-    critical_before.assign(critical_set.size(), 0);
+    critical_set = NumberSet(static_cast<std::size_t>(element_count()));
   }
 }
 
@@ -110,39 +103,36 @@ void ElementForce::Blocks::clear_stiffness(BlockGroup& group, std::size_t slot) 
 /// Through a set of bits, so that any number of elements comes out ascending in linear time.
 void ElementForce::Blocks::list_critical() {
   critical.clear();
-  std::fill(critical_set.begin(), critical_set.end(), 0);
+  critical_set.clear();
   for (const BlockGroup& group : groups) {
     if (!group.plan.cracks) continue;
     for (std::size_t block = 0; block < group.blocks(); ++block) {
       for (std::uint64_t bits = critical_now[group.first_block + block]; bits; bits &= bits - 1) {
-        const Index e = group.elements[block * kBlock + static_cast<std::size_t>(std::countr_zero(bits))];
-        critical_set[static_cast<std::size_t>(e) / 64] |= std::uint64_t{1} << (e % 64);
+        critical_set.insert(
+            group.elements[block * kBlock + static_cast<std::size_t>(std::countr_zero(bits))]);
       }
     }
   }
-  for (std::size_t word = 0; word < critical_set.size(); ++word) {
-    critical_before[word] = static_cast<Index>(critical.size());
-    for (std::uint64_t bits = critical_set[word]; bits; bits &= bits - 1) {
-      critical.push_back(static_cast<Index>(64 * word) + std::countr_zero(bits));
-    }
-  }
+  critical_set.list(critical);
 }
 
 ElementForce::ElementForce(const Model& model) : blocks_(std::make_unique<Blocks>(model)) {}
 ElementForce::~ElementForce() = default;
 
 void ElementForce::add_mass(std::span<double> mass) const {
-  for (std::size_t e = 0; e < blocks_->places.size(); ++e) {
-    const auto& [group, slot] = blocks_->places[e];
-    if (group == kNone) continue;
-    const std::int32_t* offsets = blocks_->groups[group].corner_offsets(slot);
-    for (int corner = 0; corner < blocks_->groups[group].corners(); ++corner)
-      mass[offsets[corner * kLanes] / 3] += blocks_->corner_masses[e];
+  for (Index e = 0; e < blocks_->element_count(); ++e) {
+    const auto [g, slot] = blocks_->place(e);
+    if (g == kNone) continue;
+    const BlockGroup& group = blocks_->groups[g];
+    const double of_element = cdfp::corner_mass(group, slot);
+    const std::int32_t* offsets = group.corner_offsets(slot);
+    for (int corner = 0; corner < group.corners(); ++corner) mass[offsets[corner * kLanes] / 3] += of_element;
   }
 }
 
 double ElementForce::corner_mass(Index element) const {
-  return blocks_->corner_masses[element];
+  const Blocks::Place place = blocks_->place(element);
+  return place.group == kNone ? 0 : cdfp::corner_mass(blocks_->groups[place.group], place.slot);
 }
 
 std::span<const Index> ElementForce::first_corners() const {
@@ -180,10 +170,10 @@ ElementForce::Elasticity ElementForce::shown_elasticity(Index part) const {
 }
 
 double ElementForce::mean_state(Index element, int state) const {
-  const Blocks::Place& place = blocks_->places[element];
+  const Blocks::Place place = blocks_->place(element);
   const UserPoints* user = place.group == kNone ? nullptr : blocks_->groups[place.group].user.get();
   if (!user || state >= user->law().states) return std::numeric_limits<double>::quiet_NaN();
-  return user->mean_state(static_cast<std::size_t>(place.slot), state);
+  return user->mean_state(place.slot, state);
 }
 
 void ElementForce::add_force(std::span<const double> position, std::span<double> force, double step,
@@ -207,7 +197,7 @@ void ElementForce::add_force(std::span<const double> position, std::span<double>
         b.run(tasks[static_cast<std::size_t>(i)], position, force, reference);
     }
   }
-  if (!b.critical_set.empty()) b.list_critical();
+  if (!b.critical_set.is_void()) b.list_critical();
 }
 
 std::span<const Index> ElementForce::critical_elements() const {
@@ -237,7 +227,7 @@ std::span<const Mat3> ElementForce::critical_stresses(std::span<const double> po
               const auto s = [&](std::size_t k) {
                 return stress[6 * (slot / kLanes) + k].value[slot % kLanes];
               };
-              b.critical_stress[b.place_of_critical(group.elements[block * kBlock + slot])] = {
+              b.critical_stress[b.critical_set.place(group.elements[block * kBlock + slot])] = {
                   {Vec3{s(0), s(3), s(5)}, Vec3{s(3), s(1), s(4)}, Vec3{s(5), s(4), s(2)}}};
             }
           }
@@ -253,23 +243,23 @@ void ElementForce::set_least_strength(Index part, double strength) {
 }
 
 Mat3 ElementForce::stress(Index element, std::span<const double> position) const {
-  const Blocks::Place& place = blocks_->places[element];
+  const Blocks::Place place = blocks_->place(element);
   if (place.group == kNone) return {};
-  return element_stress(blocks_->groups[place.group], static_cast<std::size_t>(place.slot), position);
+  return element_stress(blocks_->groups[place.group], place.slot, position);
 }
 
 void ElementForce::corner_force(Index element, std::span<const double> position,
                                 std::span<double> force) const {
-  const Blocks::Place& place = blocks_->places[element];
+  const Blocks::Place place = blocks_->place(element);
   if (place.group == kNone) {
     std::fill(force.begin(), force.end(), 0.0);
     return;
   }
-  element_force(blocks_->groups[place.group], static_cast<std::size_t>(place.slot), position, force);
+  element_force(blocks_->groups[place.group], place.slot, position, force);
 }
 
 void ElementForce::replace_node(Index element, Index corner, Index node) {
-  const auto& [group, slot] = blocks_->places[element];
+  const auto [group, slot] = blocks_->place(element);
   if (group != kNone) blocks_->groups[group].corner_offsets(slot)[corner * kLanes] = 3 * node;
 }
 
@@ -323,12 +313,11 @@ std::vector<PartEnergy> ElementForce::energies(std::span<const double> position,
 }
 
 Index ElementForce::first_inverted(std::span<const double> position) const {
-  for (std::size_t e = 0; e < blocks_->places.size(); ++e) {
-    const Blocks::Place& place = blocks_->places[e];
+  for (Index e = 0; e < blocks_->element_count(); ++e) {
+    const Blocks::Place place = blocks_->place(e);
     if (place.group == kNone) continue;
-    const double volume =
-        element_volume(blocks_->groups[place.group], static_cast<std::size_t>(place.slot), position);
-    if (!(volume > 0) || !std::isfinite(volume)) return static_cast<Index>(e);
+    const double volume = element_volume(blocks_->groups[place.group], place.slot, position);
+    if (!(volume > 0) || !std::isfinite(volume)) return e;
   }
   return kNone;
 }
@@ -348,18 +337,20 @@ void ElementForce::archive(Archive& a) {
   a("elements.awake", b.is_awake);
   a("elements.critical", b.critical_now);
   a("elements.critical_stress", b.critical_stress);
-  if (a.reads() && !b.critical_set.empty()) b.list_critical();
+  if (a.reads() && !b.critical_set.is_void()) b.list_critical();
 }
 
 std::size_t ElementForce::memory() const {
   const Blocks& b = *blocks_;
-  std::size_t bytes = b.places.size() * (sizeof(Blocks::Place) + sizeof(double));
+  const auto count = static_cast<std::size_t>(b.element_count());
+  std::size_t bytes = 2 * count * sizeof(Index);  // slots and first corners
   for (const BlockGroup& group : b.groups) {
     bytes += group.elements.size() * sizeof(Index) + group.offsets.size() * sizeof(std::int32_t);
-    bytes += (group.constants.size() + group.state.size() + group.step_terms.size()) * sizeof(Lanes);
+    bytes += (group.constants.size() + group.state.size()) * sizeof(Lanes);
+    bytes += group.step_terms.size() * sizeof(SingleLanes);
     if (group.user) bytes += group.user->memory();
   }
-  return b.places.empty() ? 0 : bytes / b.places.size();
+  return count == 0 ? 0 : bytes / count;
 }
 
 }  // namespace cdfp

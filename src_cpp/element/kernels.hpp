@@ -41,7 +41,7 @@ struct BlockKernel {
   BlockEnergy (*energy)(const BlockInput& block) = nullptr;
   /// Bounds of omega^2 as deformed now, 1/s2, one a lane; `terms`: [row][the four StepTerms]
   /// [lane]. `omega_squared`: aligned as Lanes.
-  void (*step_bound)(const BlockInput& block, const Lanes* terms, double* omega_squared) = nullptr;
+  void (*step_bound)(const BlockInput& block, const SingleLanes* terms, double* omega_squared) = nullptr;
   /// Mean Cauchy stress, Pa, of the elements whose bits are set (and of some beside them):
   /// [row][xx yy zz xy yz xz][lane].
   void (*stress)(const BlockInput& block, std::uint64_t elements, Lanes* stress) = nullptr;

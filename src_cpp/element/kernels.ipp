@@ -127,7 +127,7 @@ BlockEnergy energy(const BlockInput& block) {
 /// A stretch U raises what the undeformed element has by at most its greatest square, <= 1 + 2 |E|; a stress
 /// adds at most its norm times `geometric`; hourglass amplitudes mix the two by their share of strain h.
 template <class Formulation, class Law>
-void step_bound(const BlockInput& block, const Lanes* terms, double* omega_squared) {
+void step_bound(const BlockInput& block, const SingleLanes* terms, double* omega_squared) {
   const PartConstants part = *block.part;
   const auto* block_state = reinterpret_cast<const double*>(block.state);
   for (int first = 0; first < block.count; first += kWidth) {
@@ -142,9 +142,9 @@ void step_bound(const BlockInput& block, const Lanes* terms, double* omega_squar
     for (int point = 0; point < Formulation::kPoints; ++point) {
       ratio = max(ratio, Law::template stiffness_ratio<Pack>(part.material, pack.point(block_state, point)));
     }
-    const double* term = &terms[4 * (first / kLanes)].value[first % kLanes];
-    const Pack reference_material = load<Pack>(term), reference_hourglass = load<Pack>(term + kLanes);
-    const Pack coupling = load<Pack>(term + 2 * kLanes), geometric = load<Pack>(term + 3 * kLanes);
+    const float* term = &terms[4 * (first / kLanes)].value[first % kLanes];
+    const Pack reference_material = load_single(term), reference_hourglass = load_single(term + kLanes);
+    const Pack coupling = load_single(term + 2 * kLanes), geometric = load_single(term + 3 * kLanes);
     const Pack stretch = Pack(1.0) + Pack(2.0) * square_root(strain_square);
     const Pack material = reference_material * ratio * stretch + geometric * square_root(stress_square);
     const Pack hourglass =

@@ -1,5 +1,7 @@
 #include "element/single_element.hpp"
 
+#include <type_traits>
+
 #include "element/full_integration.hpp"
 #include "element/one_point.hpp"
 #include "element/tetrahedron.hpp"
@@ -114,6 +116,23 @@ double hourglass_density(const BlockGroup& group, std::size_t slot, std::span<co
     density = hourglass / volume;
   });
   return density;
+}
+
+double corner_mass(const BlockGroup& group, std::size_t slot) {
+  double volume = 0;
+  for_kind(group.kind, [&]<class Formulation, class Law>() {
+    const double* constants =
+        &group.constants[slot / kLanes * static_cast<std::size_t>(Formulation::kConstants)]
+             .value[slot % kLanes];
+    if constexpr (std::is_same_v<Formulation, host::FullIntegration<host::PrismPoints>>) {
+      volume = constants[host::PrismPoints::kVolume * kLanes];
+    } else {
+      for (int point = 0; point < Formulation::kPoints; ++point) {
+        volume += Formulation::template volume<double>(constants, point);
+      }
+    }
+  });
+  return group.plan.constants.density * volume / group.corners();
 }
 
 double element_volume(const BlockGroup& group, std::size_t slot, std::span<const double> position) {

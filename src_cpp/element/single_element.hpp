@@ -18,6 +18,9 @@ void element_force(const BlockGroup& group, std::size_t slot, std::span<const do
 /// J/m3: energy in hourglass modes over the undeformed volume.
 double hourglass_density(const BlockGroup& group, std::size_t slot, std::span<const double> position);
 
+/// kg: what the element gives to each of its corners.
+double corner_mass(const BlockGroup& group, std::size_t slot);
+
 /// m3; negative where it is inside out.
 double element_volume(const BlockGroup& group, std::size_t slot, std::span<const double> position);
 

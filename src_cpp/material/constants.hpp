@@ -12,6 +12,11 @@ struct alignas(64) Lanes {
   double value[kLanes];
 };
 
+/// The same, rounded to single precision.
+struct alignas(32) SingleLanes {
+  float value[kLanes];
+};
+
 struct MaterialConstants {
   double lambda = 0, mu = 0;  ///< Pa, Lame constants (of the static branch if rate dependent)
 

@@ -2,9 +2,11 @@
 
 #include <cairo-svg.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "output/files.hpp"
+#include "output/png_file.hpp"
 
 namespace cdfp {
 namespace {
@@ -27,9 +29,12 @@ void check(cairo_status_t status, const std::filesystem::path& path) {
                 "cannot draw '" + path.string() + "': " + cairo_status_to_string(status) + "; free memory");
 }
 
-void draw_on(cairo_surface_t* surface, const std::filesystem::path& path, const Drawing& drawing) {
+/// What lies below the line `top` of the drawing.
+void draw_on(cairo_surface_t* surface, const std::filesystem::path& path, const Drawing& drawing,
+             int top = 0) {
   check(cairo_surface_status(surface), path);
   const Context context(cairo_create(surface));
+  cairo_translate(context.get(), 0, -top);
   cairo_set_source_rgb(context.get(), 1, 1, 1);
   cairo_paint(context.get());
   Canvas canvas(context.get());
@@ -137,11 +142,17 @@ void Canvas::unclip() {
 }
 
 void write_png(const std::filesystem::path& path, int width, int height, const Drawing& drawing) {
-  const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
-  draw_on(surface.get(), path, drawing);
-  std::string bytes;
-  check(cairo_surface_write_to_png_stream(surface.get(), append, &bytes), path);
-  write_whole_file(path, bytes);
+  constexpr int strip = 256;  // rows: a whole picture in memory may be more than the run that it shows
+  PngFile file(width, height);
+  const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, std::min(strip, height)));
+  for (int top = 0; top < height; top += strip) {
+    draw_on(surface.get(), path, drawing, top);
+    cairo_surface_flush(surface.get());
+    const unsigned char* pixels = cairo_image_surface_get_data(surface.get());
+    const std::ptrdiff_t stride = cairo_image_surface_get_stride(surface.get());
+    for (int row = 0; row < std::min(strip, height - top); ++row) file.add_row(pixels + row * stride);
+  }
+  write_whole_file(path, file.finish());
 }
 
 void write_svg(const std::filesystem::path& path, int width, int height, const Drawing& drawing) {
