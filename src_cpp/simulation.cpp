@@ -252,7 +252,7 @@ void Simulation::Stages::take_shown_elasticity() {
 void Simulation::Stages::list_stages() {
   if (has_gravity()) {
     add_stage(move_, "gravity_work", [this] {
-      external_work += gravity_work(gravity(), step_size, nodes);
+      external_work += gravity_work(gravity(), step_size, nodes, threads);
       for (const RigidMotion& body : bodies) external_work += body.gravity_work(gravity(), step_size);
     });
   }
@@ -519,7 +519,7 @@ Energies Simulation::Stages::energies(const std::vector<PartEnergy>& parts) cons
   Energies sum;
   sum.initial = initial_energy;
   sum.external_work = external_work + work_ahead_;
-  sum.kinetic = kinetic_energy(kick, nodes);
+  sum.kinetic = kinetic_energy(kick, nodes, threads);
   for (const RigidMotion& body : bodies) sum.kinetic += body.kinetic_energy(kick);
   for (const PartEnergy& part : parts) {
     sum.strain += part.strain;

@@ -1,5 +1,8 @@
 #include "integrator/central_difference.hpp"
 
+#include <numeric>
+#include <vector>
+
 namespace cdfp {
 
 namespace {
@@ -14,14 +17,18 @@ Vec3 acceleration(const Nodes& nodes, Index n) {
   return {fixed & 1 ? 0 : f.x * per_mass, fixed & 2 ? 0 : f.y * per_mass, fixed & 4 ? 0 : f.z * per_mass};
 }
 
-/// Sum of `value(n)` over deformable nodes that carry mass.
+/// Sum of `value(n)` over deformable nodes that carry mass, piece by piece.
 template <class Value>
-auto sum_over_free(const Nodes& nodes, Value&& value) {
-  decltype(value(0)) total{};
-  for (Index n = 0; n < nodes.count(); ++n) {
-    if (nodes.body[n] == kNone && nodes.mass[n] > 0) total += value(n);
-  }
-  return total;
+double sum_over_free(const Nodes& nodes, const Threads& threads, Value&& value) {
+  std::vector<double> pieces((nodes.count() + kGrain - 1) / kGrain, 0);
+  threads.for_ranges(nodes.count(), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    double sum = 0;
+    for (auto n = static_cast<Index>(begin); n < end; ++n) {
+      if (nodes.body[n] == kNone && nodes.mass[n] > 0) sum += value(n);
+    }
+    pieces[begin / kGrain] = sum;
+  });
+  return std::accumulate(pieces.begin(), pieces.end(), 0.0);
 }
 
 }  // namespace
@@ -62,19 +69,16 @@ void add_gravity(Vec3 gravity, Nodes& nodes, const Threads& threads) {
   });
 }
 
-double kinetic_energy(double step, const Nodes& nodes) {
-  return sum_over_free(nodes, [&](Index n) {
+double kinetic_energy(double step, const Nodes& nodes, const Threads& threads) {
+  return sum_over_free(nodes, threads, [&](Index n) {
     const Vec3 v = nodes.v(n);
     return 0.5 * nodes.mass[n] * dot(v - step * acceleration(nodes, n), v);
   });
 }
 
-double gravity_work(Vec3 gravity, double step, const Nodes& nodes) {
-  return sum_over_free(nodes, [&](Index n) { return step * nodes.mass[n] * dot(gravity, nodes.v(n)); });
-}
-
-Vec3 momentum(const Nodes& nodes) {
-  return sum_over_free(nodes, [&](Index n) { return nodes.mass[n] * nodes.v(n); });
+double gravity_work(Vec3 gravity, double step, const Nodes& nodes, const Threads& threads) {
+  return sum_over_free(nodes, threads,
+                       [&](Index n) { return step * nodes.mass[n] * dot(gravity, nodes.v(n)); });
 }
 
 }  // namespace cdfp

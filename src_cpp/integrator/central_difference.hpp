@@ -18,12 +18,9 @@ void add_gravity(Vec3 gravity, Nodes& nodes, const Threads& threads);
 /// 1/2 sum m v(n-1/2) . v(n+1/2) over nodes outside rigid bodies: with the potential energy at n it is what
 /// leapfrog conserves. `nodes.velocity` is v(n+1/2), `nodes.force` belongs to n. Directions that are
 /// constrained count with v(n+1/2) alone.
-double kinetic_energy(double step, const Nodes& nodes);
+double kinetic_energy(double step, const Nodes& nodes, const Threads& threads);
 
 /// Work of gravity over the drift to come: mass * gravity . v * step.
-double gravity_work(Vec3 gravity, double step, const Nodes& nodes);
-
-/// Momentum at the half step of nodes outside rigid bodies, kg m/s.
-Vec3 momentum(const Nodes& nodes);
+double gravity_work(Vec3 gravity, double step, const Nodes& nodes, const Threads& threads);
 
 }  // namespace cdfp
