@@ -43,7 +43,6 @@ class RigidMotion {
   Vec3 angular_velocity() const { return angular_velocity_; }
   Vec3 force() const { return force_; }  ///< N, on the nodes at the last `accelerate`
   double mass() const { return mass_; }
-  Vec3 momentum() const { return mass_ * velocity_; }
 
  private:
   void move_nodes(Nodes& nodes) const;
