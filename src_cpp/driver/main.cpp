@@ -1,9 +1,6 @@
 // The command `cdfp`: runs case files.
 
 #include <unistd.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -14,6 +11,7 @@
 
 #include "cdfp/material_library.hpp"
 #include "driver/case_reader.hpp"
+#include "driver/large_blocks.hpp"
 #include "driver/run_case.hpp"
 #include "scene/scene.hpp"
 
@@ -61,20 +59,12 @@ void start_with_short_spin(char** arguments) {
   if (setenv("GOMP_SPINCOUNT", "20000", 1) == 0) execv("/proc/self/exe", arguments);
 }
 
-/// glibc keeps large blocks that were freed, and more of them the larger they were: a tenth of a run's
-/// memory.
-void give_large_blocks_back() {
-#ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 256 << 10);
-#endif
-}
-
 }  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): nothing is left to do when memory runs out in CLI11
 int main(int argc, char** argv) {
   start_with_short_spin(argv);
-  give_large_blocks_back();
+  cdfp::give_large_blocks_back();
   CLI::App app{"Explicit finite elements for impact fracture of laminated glass", "cdfp"};
   app.set_version_flag("--version", "cdfp " CDFP_VERSION);
   app.require_subcommand(1);

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <system_error>
+#include <utility>
 
 namespace cdfp {
 namespace {
@@ -50,6 +51,40 @@ void write_whole_file(const std::filesystem::path& path, std::span<const std::st
   const std::filesystem::path temporary = temporary_beside(path);
   write_stream(temporary, "wb", pieces);
   move_into_place(temporary, path);
+}
+
+GrowingFile::GrowingFile(std::filesystem::path path)
+    : path_(std::move(path)),
+      temporary_(temporary_beside(path_)),
+      stream_(std::fopen(temporary_.c_str(), "wb")) {
+  if (!stream_) throw write_error(path_);
+}
+GrowingFile::~GrowingFile() {
+  if (!stream_) return;
+  std::fclose(stream_);
+  std::error_code ignored;
+  std::filesystem::remove(temporary_, ignored);
+}
+
+void GrowingFile::write(std::string_view bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stream_) != bytes.size()) throw write_error(path_);
+}
+
+void GrowingFile::append(std::string_view bytes) {
+  write(bytes);
+  size_ += bytes.size();
+}
+
+void GrowingFile::overwrite(std::size_t at, std::string_view bytes) {
+  if (std::fseek(stream_, static_cast<long>(at), SEEK_SET) != 0) throw write_error(path_);
+  write(bytes);
+  if (std::fseek(stream_, 0, SEEK_END) != 0) throw write_error(path_);
+}
+
+void GrowingFile::finish() {
+  std::FILE* stream = std::exchange(stream_, nullptr);
+  if (std::fclose(stream) != 0) throw write_error(path_);
+  move_into_place(temporary_, path_);
 }
 
 void append_to_file(const std::filesystem::path& path, std::string_view lines) {

@@ -1,6 +1,8 @@
 /// Files that are whole at any moment: written beside their place, then renamed into it.
 #pragma once
 
+#include <cstddef>
+#include <cstdio>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -18,6 +20,28 @@ void move_into_place(const std::filesystem::path& temporary, const std::filesyst
 
 void write_whole_file(const std::filesystem::path& path, std::string_view content);
 void write_whole_file(const std::filesystem::path& path, std::span<const std::string_view> pieces);
+
+/// A file too large to be put together in memory: it grows beside its place and takes it at `finish`.
+class GrowingFile {
+ public:
+  explicit GrowingFile(std::filesystem::path path);
+  ~GrowingFile();
+  GrowingFile(const GrowingFile&) = delete;
+  GrowingFile& operator=(const GrowingFile&) = delete;
+
+  std::size_t size() const { return size_; }
+  void append(std::string_view bytes);
+  /// `at` + the length of `bytes` is at most `size()`.
+  void overwrite(std::size_t at, std::string_view bytes);
+  void finish();
+
+ private:
+  void write(std::string_view bytes);
+
+  std::filesystem::path path_, temporary_;
+  std::FILE* stream_;
+  std::size_t size_ = 0;
+};
 
 /// Appends whole lines with one write.
 void append_to_file(const std::filesystem::path& path, std::string_view lines);

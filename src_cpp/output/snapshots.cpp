@@ -24,7 +24,6 @@ std::string snapshot_name(const char* prefix, std::size_t number) {
 
 void write_bulk(const Frame& frame, const std::filesystem::path& path) {
   const std::size_t elements = frame.parts.size();
-  const std::vector<std::int64_t> ends(frame.first_corner.begin() + 1, frame.first_corner.end());
   std::vector<std::uint8_t> types(elements, vtk_hexahedron);
   for (std::size_t e = 0; e < elements; ++e) {
     const std::int64_t corners = frame.first_corner[e + 1] - frame.first_corner[e];
@@ -33,7 +32,7 @@ void write_bulk(const Frame& frame, const std::filesystem::path& path) {
   }
   VtuFile file(frame.positions.size() / 3, elements, frame.time);
   file.points(frame.positions);
-  file.cells(frame.connectivity, ends, types);
+  file.cells(frame.connectivity, frame.first_corner.subspan(1), types);
   file.point_array("velocity", 3, frame.velocities);
   file.cell_array("part", frame.parts);
   if (frame.von_mises.size() == elements) file.cell_array("von_mises", frame.von_mises);
@@ -44,8 +43,7 @@ void write_bulk(const Frame& frame, const std::filesystem::path& path) {
 
 void write_cracks(const Frame& frame, const std::filesystem::path& path) {
   std::vector<double> points, damage, insertion_time;
-  std::vector<Index> connectivity, layer, part;
-  std::vector<std::int64_t> offsets;
+  std::vector<Index> connectivity, ends, layer, part;
   std::vector<std::uint8_t> types;
   for (const CrackFacet& facet : frame.cracks) {
     for (Index corner = 0; corner < facet.corners; ++corner) {
@@ -55,7 +53,7 @@ void write_cracks(const Frame& frame, const std::filesystem::path& path) {
       connectivity.push_back(static_cast<Index>(points.size() / 3));
       for (int i = 0; i < 3; ++i) points.push_back(0.5 * (upper[i] + lower[i]));
     }
-    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+    ends.push_back(static_cast<Index>(connectivity.size()));
     types.push_back(facet.corners == 3 ? vtk_triangle : vtk_quad);
     damage.push_back(facet.damage);
     insertion_time.push_back(facet.insertion_time);
@@ -64,7 +62,7 @@ void write_cracks(const Frame& frame, const std::filesystem::path& path) {
   }
   VtuFile file(points.size() / 3, types.size(), frame.time);
   file.points(points);
-  file.cells(connectivity, offsets, types);
+  file.cells(connectivity, ends, types);
   file.cell_array("damage", damage);
   file.cell_array("insertion_time", insertion_time);
   file.cell_array("layer", layer);

@@ -1,4 +1,5 @@
-/// VTK XML unstructured grid, arrays appended raw and compressed by zlib.
+/// VTK XML unstructured grid, arrays appended raw and compressed by zlib. They are compressed on their way to
+/// the file, so they must stay until `write`.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@ class VtuFile {
 
   void points(std::span<const double> coordinates);
   /// `offsets`: end of each cell in `connectivity`; `types`: numbers of VTK's cell types.
-  void cells(std::span<const Index> connectivity, std::span<const std::int64_t> offsets,
+  void cells(std::span<const Index> connectivity, std::span<const Index> offsets,
              std::span<const std::uint8_t> types);
   void point_array(const std::string& name, int components, std::span<const double> values);
   void cell_array(const std::string& name, std::span<const double> values);
@@ -26,14 +27,21 @@ class VtuFile {
   void write(const std::filesystem::path& path) const;
 
  private:
-  std::string add(const char* type, const std::string& name, int components, const void* data,
-                  std::size_t bytes);
+  struct Array {
+    const char* section;
+    const char* type;
+    std::string name;
+    int components;
+    std::span<const unsigned char> bytes;
+  };
+  template <class T>
+  void add(const char* section, const char* type, const std::string& name, int components,
+           std::span<const T> values);
+  std::string head(const std::vector<std::size_t>& offsets) const;
 
   std::size_t point_count_, cell_count_;
   double time_;
-  std::string points_, cells_, point_data_, cell_data_;
-  std::vector<std::string> appended_;  // array after array
-  std::size_t appended_bytes_ = 0;
+  std::vector<Array> arrays_;
 };
 
 }  // namespace cdfp

@@ -33,7 +33,7 @@ TEST(Snapshots, bulk_arrays_come_back_bit_for_bit) {
   EXPECT_EQ(vtu.at("CellData", "part").as<Index>(), state.parts);
   EXPECT_EQ(vtu.at("CellData", "von_mises").as<double>(), state.frame.von_mises);
   EXPECT_EQ(vtu.at("CellData", "max_principal").as<double>(), state.frame.max_principal);
-  const auto offsets = vtu.at("Cells", "offsets").as<std::int64_t>();
+  const auto offsets = vtu.at("Cells", "offsets").as<Index>();
   ASSERT_EQ(offsets.size(), vtu.cells);
   const auto types = vtu.at("Cells", "types").as<std::uint8_t>();
   for (std::size_t e = 0; e < vtu.cells; ++e) {
@@ -56,7 +56,7 @@ TEST(Snapshots, a_wedge_is_a_cell_of_type_13) {
   Snapshots(folder.path()).write(frame);
   const sample::Vtu vtu = sample::read_vtu(folder / "snapshots/0000.vtu");
   EXPECT_EQ(vtu.at("Cells", "types").as<std::uint8_t>(), std::vector<std::uint8_t>{13});
-  EXPECT_EQ(vtu.at("Cells", "offsets").as<std::int64_t>(), std::vector<std::int64_t>{6});
+  EXPECT_EQ(vtu.at("Cells", "offsets").as<Index>(), std::vector<Index>{6});
 }
 
 TEST(Snapshots, crack_faces_lie_midway_between_their_sides) {
@@ -73,7 +73,7 @@ TEST(Snapshots, crack_faces_lie_midway_between_their_sides) {
   const auto& cracks = state.frame.cracks;
   ASSERT_EQ(vtu.cells, cracks.size());
   const auto points = vtu.at("Points", "Points").as<double>();
-  const auto ends = vtu.at("Cells", "offsets").as<std::int64_t>();
+  const auto ends = vtu.at("Cells", "offsets").as<Index>();
   const auto corners = vtu.at("Cells", "connectivity").as<Index>();
   const auto types = vtu.at("Cells", "types").as<std::uint8_t>();
   std::int64_t begin = 0;
