@@ -166,6 +166,12 @@ void need_number(std::int64_t number, std::int64_t count, const char* what) {
          std::to_string(count) + ", counted from " + numbered(0));
 }
 
+std::string name_of(const char* string, const char* argument) {
+  need(string, argument);
+  if (!*string) refuse(std::string("argument '") + argument + "' is empty; give a name");
+  return string;
+}
+
 void copy_text(std::string_view from, char* text, std::int64_t capacity, std::int64_t* length) {
   need(length, "length");
   need_array(text, capacity, "text");

@@ -200,6 +200,8 @@ std::size_t size_of(std::int64_t count, const char* name);
 void need_array(const void* array, std::int64_t count, const char* name);
 /// `number` in [0, count).
 void need_number(std::int64_t number, std::int64_t count, const char* what);
+/// Names that entries, files and functions are found by: not empty.
+std::string name_of(const char* string, const char* argument);
 void copy_text(std::string_view from, char* text, std::int64_t capacity, std::int64_t* length);
 
 template <class Value>

@@ -10,12 +10,6 @@ using namespace cdfp::gate;
 
 namespace {
 
-std::string text(const char* string, const char* argument) {
-  need(string, argument);
-  if (!*string) refuse(std::string("argument '") + argument + "' is empty; give a name");
-  return string;
-}
-
 UserMaterial material_of(const cdfp_user_material* given) {
   need(given, "material");
   UserMaterial material;
@@ -55,7 +49,7 @@ int32_t cdfp_model_add_user_material(cdfp_model* model, const char* name, const 
     UserMaterial law = material_of(material);
     if (!callback) refuse("argument 'callback' is null; give the function that computes the stress");
     law.callback = [callback, user_data](const MaterialPoints& points) { callback(&points, user_data); };
-    m->materials.push_back({text(name, "name"), std::move(law)});
+    m->materials.push_back({name_of(name, "name"), std::move(law)});
   });
 }
 
@@ -65,8 +59,8 @@ int32_t cdfp_model_add_library_material(cdfp_model* model, const char* name,
   return guarded(__func__, [&] {
     const Change m(model);
     UserMaterial law = material_of(material);
-    load_material(text(library, "library"), text(function, "function"), law);
-    m->materials.push_back({text(name, "name"), std::move(law)});
+    load_material(name_of(library, "library"), name_of(function, "function"), law);
+    m->materials.push_back({name_of(name, "name"), std::move(law)});
   });
 }
 
@@ -87,13 +81,13 @@ int32_t cdfp_model_add_vumat_material(cdfp_model* model, const char* name, const
     UserMaterial law = material_of(material);
     need(vumat, "vumat");
     VumatOptions options;
-    options.name = text(name, "name");
+    options.name = name_of(name, "name");
     options.temperature = vumat->temperature;
     const std::size_t fields = size_of(vumat->field_count, "field_count");
     need_array(vumat->fields, vumat->field_count, "fields");
     options.fields.assign(vumat->fields, vumat->fields + fields);
     options.single_precision = vumat->single_precision != 0;
-    load_vumat(text(library, "library"), options, law);
+    load_vumat(name_of(library, "library"), options, law);
     m->materials.push_back({options.name, std::move(law)});
   });
 }
@@ -101,7 +95,7 @@ int32_t cdfp_model_add_vumat_material(cdfp_model* model, const char* name, const
 int32_t cdfp_model_set_state_name(cdfp_model* model, const char* material, int32_t state, const char* name) {
   return guarded(__func__, [&] {
     const Change m(model);
-    const std::string wanted = text(material, "material");
+    const std::string wanted = name_of(material, "material");
     const auto found = std::find_if(m->materials.begin(), m->materials.end(),
                                     [&](const Material& known) { return known.name == wanted; });
     auto* law = found == m->materials.end() ? nullptr : std::get_if<UserMaterial>(&found->law);
@@ -110,13 +104,13 @@ int32_t cdfp_model_set_state_name(cdfp_model* model, const char* material, int32
     for (auto k = static_cast<std::int32_t>(law->state_names.size()); k <= state; ++k) {
       law->state_names.push_back(state_name(*law, k));
     }
-    law->state_names[static_cast<std::size_t>(state)] = text(name, "name");
+    law->state_names[static_cast<std::size_t>(state)] = name_of(name, "name");
   });
 }
 
 int32_t cdfp_build_material(const char* source, const char* library, int32_t single_precision) {
   return guarded(__func__, [&] {
-    build_material(text(source, "source"), text(library, "library"), {single_precision != 0});
+    build_material(name_of(source, "source"), name_of(library, "library"), {single_precision != 0});
   });
 }
 
@@ -124,7 +118,7 @@ int32_t cdfp_simulation_element_field(const cdfp_simulation* simulation, const c
                                       double* values) {
   return guarded(__func__, [&] {
     const Look s(simulation);
-    const std::string wanted = text(name, "name");
+    const std::string wanted = name_of(name, "name");
     const std::size_t count = size_of(elements, "elements");
     need_array(values, elements, "values");
     const Frame frame = s->frame();

@@ -15,18 +15,6 @@ static_assert(int32_t(Formulation::one_point) == CDFP_ONE_POINT && int32_t(Formu
 
 namespace {
 
-std::string text(const char* string, const char* name) {
-  need(string, name);
-  return string;
-}
-
-/// Names that entries are found by.
-std::string name_of(const char* string, const char* argument) {
-  std::string name = text(string, argument);
-  if (name.empty()) refuse(std::string("argument '") + argument + "' is empty; give a name");
-  return name;
-}
-
 void set_mesh(Model& model, int64_t nodes, const double* coordinates, std::size_t elements,
               const int32_t* types, std::span<const Index> connectivity, const int32_t* parts,
               const int32_t* layers) {
@@ -100,7 +88,10 @@ int32_t cdfp_model_free(cdfp_model** model) {
 }
 
 int32_t cdfp_model_set_title(cdfp_model* model, const char* title) {
-  return guarded(__func__, [&] { Change(model)->title = text(title, "title"); });
+  return guarded(__func__, [&] {
+    need(title, "title");
+    Change(model)->title = title;
+  });
 }
 
 int32_t cdfp_model_set_mesh(cdfp_model* model, int64_t nodes, const double* coordinates, int64_t elements,

@@ -25,5 +25,5 @@ ASAN_OPTIONS=detect_leaks=1 LSAN_OPTIONS=suppressions=$PWD/tests/leaks.supp:prin
 echo "== Format and lint"
 mapfile -t sources < <(git ls-files '*.cpp' '*.hpp' '*.h')
 clang-format --dry-run -Werror "${sources[@]}"
-.ci/lint.sh build
+.ci/lint.sh build-lint
 echo "All checks passed."

@@ -4,14 +4,11 @@
 #include "cdfp/error.hpp"
 #include "cohesive/law.hpp"
 #include "core/numbered.hpp"
+#include "core/require.hpp"
 
 namespace cdfp {
 
 namespace {
-
-void require(bool holds, const std::string& message) {
-  if (!holds) throw Error(Status::bad_argument, message);
-}
 
 void require_rows(std::size_t size, std::size_t points, const char* name) {
   require(size == 3 * points, std::string("'") + name + "' has " + std::to_string(size) +

@@ -14,11 +14,6 @@ using Eigen::Vector3d;
 using Stiffness = Eigen::Matrix<double, 24, 24>;
 using StrainOf = Eigen::Matrix<double, 6, 24>;
 
-template <class Symmetric>
-double highest(const Symmetric& matrix) {
-  return Eigen::SelfAdjointEigenSolver<Symmetric>(matrix, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-}
-
 /// Engineering strains xx yy zz xy yz xz of corner displacements, for gradients by corner.
 StrainOf strain_of(const Corners& gradient) {
   StrainOf b = StrainOf::Zero();
@@ -78,7 +73,7 @@ double stiffest(const PartConstants& part, const Vector3d& g) {
     pair[j] = g[i];
     twist += part.shear_share * pair * pair.transpose();
   }
-  return std::max(most, highest(twist));
+  return std::max(most, highest_eigenvalue(twist));
 }
 
 /// Between the space of the mean gradient and that of an orthonormal `basis`.
@@ -86,7 +81,7 @@ double greatest_cosine(const Corners& gradient, const Eigen::Matrix<double, 8, 4
   const Eigen::SelfAdjointEigenSolver<Matrix3d> metric(gradient.transpose() * gradient);
   const Eigen::Matrix<double, 3, 4> cosines = metric.operatorInverseSqrt() * gradient.transpose() * basis;
   if (cosines.cwiseAbs().maxCoeff() < 1e-9) return 0;
-  return std::min(1.0, std::sqrt(highest(Matrix3d(cosines * cosines.transpose()))));
+  return std::min(1.0, std::sqrt(highest_eigenvalue(Matrix3d(cosines * cosines.transpose()))));
 }
 
 Corners point_gradient(const HexahedronGeometry& geometry, int p) {
@@ -110,7 +105,7 @@ StepTerms mean_terms(const Matrix3d& metric, int corners, const PartConstants& p
   Matrix3d normal = lambda * roots * roots.transpose();
   normal.diagonal() += 2 * mu * squares;
   StepTerms terms;
-  terms.material = corners / density * std::max(mu * (squares[1] + squares[2]), highest(normal));
+  terms.material = corners / density * std::max(mu * (squares[1] + squares[2]), highest_eigenvalue(normal));
   terms.geometric = corners / density * squares[2];
   return terms;
 }
@@ -140,7 +135,7 @@ StepTerms full_terms(const HexahedronGeometry& geometry, const PartConstants& pa
     const Corners difference = gradient - geometry.gradient;
     const double share = geometry.point_volumes[p] / geometry.volume * 8 / density;  // volume over mass
     differences += share * difference * difference.transpose();
-    terms.geometric += 2 * share * highest(Matrix3d(gradient.transpose() * gradient));
+    terms.geometric += 2 * share * highest_eigenvalue(Matrix3d(gradient.transpose() * gradient));
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 8, 8>> spread(differences);
   terms.hourglass = 2 * part.material.mu * spread.eigenvalues()[7];
@@ -158,7 +153,7 @@ double full_exact(const HexahedronGeometry& geometry, const PartConstants& part,
     b.topRows<3>().rowwise() += correction;
     k += geometry.point_volumes[p] * b.transpose() * c * b;
   }
-  return highest(k) * 8 / (density * geometry.volume);
+  return highest_eigenvalue(k) * 8 / (density * geometry.volume);
 }
 
 double one_point_exact(const HexahedronGeometry& geometry, const PartConstants& part,
@@ -174,7 +169,7 @@ double one_point_exact(const HexahedronGeometry& geometry, const PartConstants& 
   const Stiffness k =
       geometry.volume * b.transpose() * elasticity(part.material.lambda, part.material.mu) * b +
       amplitudes.transpose() * hourglass_stiffness(part, hourglass) * amplitudes;
-  return highest(k) / mass;
+  return highest_eigenvalue(k) / mass;
 }
 
 }  // namespace cdfp

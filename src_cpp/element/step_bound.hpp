@@ -26,4 +26,9 @@ double full_exact(const HexahedronGeometry& geometry, const PartConstants& part,
 double one_point_exact(const HexahedronGeometry& geometry, const PartConstants& part,
                        const Eigen::Vector3d& hourglass, double density);
 
+template <class Symmetric>
+double highest_eigenvalue(const Symmetric& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Symmetric>(matrix, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+}
+
 }  // namespace cdfp

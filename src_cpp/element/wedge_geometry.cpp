@@ -84,11 +84,6 @@ Eigen::Matrix<double, 6, 6> by_direction(const Matrix2d& m) {
   return all;
 }
 
-template <class Symmetric>
-double highest(const Symmetric& matrix) {
-  return Eigen::SelfAdjointEigenSolver<Symmetric>(matrix, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-}
-
 }  // namespace
 
 WedgeGeometry wedge_geometry(const WedgeCorners& x) {
@@ -136,13 +131,14 @@ StepTerms wedge_terms(const WedgeGeometry& g, const PartConstants& part, const W
   const Matrix2d metric = shapes.transpose() * shapes;
   const Eigen::SelfAdjointEigenSolver<Matrix2d> spread(metric);
   const auto root = by_direction(spread.operatorSqrt());
-  terms.hourglass = highest(Eigen::Matrix<double, 6, 6>(root * stiffness_of(g, part, stiffness) * root)) * 6 /
-                    (part.density * g.volume);
+  terms.hourglass =
+      highest_eigenvalue(Eigen::Matrix<double, 6, 6>(root * stiffness_of(g, part, stiffness) * root)) * 6 /
+      (part.density * g.volume);
   const Eigen::SelfAdjointEigenSolver<Matrix3d> uniform(g.gradient.transpose() * g.gradient);
   const Eigen::Matrix<double, 3, 2> cosines =
       uniform.operatorInverseSqrt() * g.gradient.transpose() * shapes * spread.operatorInverseSqrt();
   if (cosines.cwiseAbs().maxCoeff() >= 1e-9) {
-    terms.coupling = std::min(1.0, std::sqrt(highest(Matrix3d(cosines * cosines.transpose()))));
+    terms.coupling = std::min(1.0, std::sqrt(highest_eigenvalue(Matrix3d(cosines * cosines.transpose()))));
   }
   return terms;
 }
@@ -165,7 +161,7 @@ double wedge_exact(const WedgeGeometry& g, const PartConstants& part, const Wedg
   elasticity.diagonal().tail<3>().setConstant(part.material.mu);
   const Eigen::Matrix<double, 18, 18> k = g.volume * strain.transpose() * elasticity * strain +
                                           q.transpose() * stiffness_of(g, part, stiffness) * q;
-  return highest(k) * 6 / (part.density * g.volume);
+  return highest_eigenvalue(k) * 6 / (part.density * g.volume);
 }
 
 double wedge_volume(const WedgeCorners& x) {
