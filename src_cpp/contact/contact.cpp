@@ -67,7 +67,6 @@ Contact::Contact(const Model& model, const Topology& topology)
     }
     s.bulk_modulus[name - model.mesh.part_names.begin()] = bulk_modulus(*material);
   }
-  std::unordered_set<std::int64_t> seen;
   for (const std::string& name : model.contact.surfaces) {
     const auto set = std::find_if(model.mesh.facet_sets.begin(), model.mesh.facet_sets.end(),
                                   [&](const FacetSet& f) { return f.name == name; });
@@ -76,15 +75,16 @@ Contact::Contact(const Model& model, const Topology& topology)
                   "contact.surfaces names \"" + name + "\", which is no facet set of the mesh");
     }
     for (const FacetUse use : set->facets) {
-      if (!seen.insert(Stages::key(use)).second) continue;
-      if (topology.mate(use).element == kNone) {
-        s.add({&use, 1}, topology, model.mesh.coordinates);
-      } else {
+      if (topology.mate(use).element != kNone) {
         s.dormant.push_back(Stages::key(use));
+      } else if (!s.surface.has_facet(topology, use)) {  // sets may share facets
+        s.add({&use, 1}, topology, model.mesh.coordinates);
       }
     }
   }
   std::sort(s.dormant.begin(), s.dormant.end());
+  s.dormant.erase(std::unique(s.dormant.begin(), s.dormant.end()), s.dormant.end());
+  s.dormant.shrink_to_fit();
 }
 Contact::~Contact() = default;
 

@@ -74,6 +74,7 @@ std::vector<FacetUse> sheet_facets(const QuadMesh& plane, double half_width, Ind
       }
     }
   }
+  facets.shrink_to_fit();
   return facets;
 }
 
