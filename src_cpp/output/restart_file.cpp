@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<char, 16> kMagic{"cdfp restart\n\x1a\n"};
 /// To be raised whenever what is saved changes.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 struct Head {
   std::array<char, 16> magic = kMagic;
