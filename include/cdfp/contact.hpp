@@ -152,7 +152,10 @@ struct SurfaceView {
 /// Candidate pairs node-segment and edge-edge (LC-Grid and its adaptive update; Chen, Zang, Xu 2015, section
 /// 4.1). A pair is a node in a segment's box grown by the buffer, or two edges whose boxes are at most the
 /// buffer apart along every axis; entities that share a node do not pair. The adaptive search takes boxes and
-/// nodes of the last regular search where they were then: it may add pairs that have since moved apart.
+/// nodes of the last regular search where they were then: it may add pairs that have since moved apart. After
+/// any insertions and movements until a regular search is due, those of its pairs whose boxes, where they are
+/// at that moment, are at most what the travel has left of the buffer apart are exactly those of the pairs of
+/// a regular search made at that moment.
 ///
 /// The cells of a row lie side by side in a table that is never longer than twice the entities: where the
 /// space has more, rows are folded onto one another. Time and memory are linear in the entities.
