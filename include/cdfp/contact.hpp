@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -50,16 +51,14 @@ class GrowingList {
 /// Pairs as compressed rows, with chains for what an adaptive search adds later.
 class PairRows {
  public:
-  Index rows() const { return static_cast<Index>(head_.size()); }
+  Index rows() const { return static_cast<Index>(ranges_.size()); }
   std::size_t size() const { return partners_.size() + added_.size(); }
-  bool empty(Index row) const { return head_[row] == kNone && (row >= sorted_rows() || length(row) == 0); }
+  bool empty(Index row) const { return head_[row] == kNone && ranges_[row].begin == ranges_[row].end; }
 
   /// `visit(partner)` in a fixed order.
   template <class Visit>
   void for_each(Index row, Visit&& visit) const {
-    if (row < sorted_rows()) {
-      for (Index i = start_[row]; i < start_[row + 1]; ++i) visit(partners_[i]);
-    }
+    for (Index i = ranges_[row].begin; i < ranges_[row].end; ++i) visit(partners_[i]);
     for (Index i = head_[row]; i != kNone; i = added_[i].next) visit(added_[i].partner);
   }
   bool contains(Index row, Index partner) const;
@@ -68,43 +67,55 @@ class PairRows {
   std::size_t memory() const;
   void archive(Archive& a);  ///< for the restart of a simulation
 
+  /// Places of rows in the order in which they are searched: bit i stands for place `at + i`.
+  struct Places {
+    std::uint32_t at = 0, bits = 0;
+  };
   /// What one thread found for its share of the partners, one partner after another.
   class Found {
    public:
-    /// Of `partners` from `first` on.
-    void start(Index first, Index partners, Index rows);
-    /// The rows of the next partners go to `room()`, up to `room_size()` of them.
-    Index* room() { return rows_.data() + count_; }
+    /// Of `partners` from `first` on, among `places` places of rows.
+    void start(Index first, Index partners, std::size_t places);
+    /// What the next partners pair with goes to `room()`, up to `room_size()`, and is counted in `counts()`,
+    /// of which a few past the last may be written.
+    Places* room() { return found_.data() + count_; }
     std::size_t room_size() const {
-      return rows_.size() > count_ + kAhead ? rows_.size() - count_ - kAhead : 0;
+      return found_.size() > count_ + kAhead ? found_.size() - count_ - kAhead : 0;
     }
+    std::uint32_t* counts() { return counts_.data(); }
     void make_room();
-    /// `count` rows were written there; those of the i-th partner of them end at `ends[i]`.
+    /// `count` were written there; those of the i-th partner of them end at `ends[i]`.
     void took(std::size_t count, std::span<const Index> ends);
-    void add(Index row) {
+    void add(Index place) {
       if (room_size() == 0) make_room();
-      rows_[count_++] = row;
-      ++row_counts_[row];
+      found_[count_++] = {static_cast<std::uint32_t>(place), 1};
+      ++counts_[place];
     }
     void end_partner() { ends_.push_back(static_cast<Index>(count_)); }
     std::size_t memory() const {
-      return (rows_.capacity() + ends_.capacity() + row_counts_.capacity()) * sizeof(Index);
+      return found_.capacity() * sizeof(Places) + (ends_.capacity() + counts_.capacity()) * sizeof(Index);
     }
 
    private:
     friend class PairRows;
-    /// Rows whose place is asked for before it is written; as many may be read past the last.
-    static constexpr std::size_t kAhead = 128;
+    /// Partners to where their rows go on.
+    void scatter(std::span<Index> partners);
+    static constexpr std::size_t kSpare = 32;
+    /// Of the places, those whose partners are asked for before they are written.
+    static constexpr std::size_t kAhead = 64;
     Index first_ = 0, partners_ = 0;
-    std::vector<Index> rows_;        // as long as its use so far; the first `count_` of them hold
-    std::vector<Index> ends_;        // of the partners
-    std::vector<Index> row_counts_;  // then where each row goes on
+    std::vector<Places> found_;          // as long as its use so far; the first `count_` of them hold
+    std::vector<Index> ends_;            // of the partners
+    std::vector<std::uint32_t> counts_;  // of partners by place; then where the next one goes
     std::size_t count_ = 0;
   };
-  /// Starts anew from what was found, share after share; the first partner is 0. Throws
-  /// `Error(bad_argument)` if there are more pairs than 32 bits count.
-  void assign(Index rows, std::span<Found> shares);
-  void add_rows(Index count) { head_.resize(head_.size() + count, kNone); }
+  /// Starts anew from what was found, share after share; the first partner is 0. `rows[i]` is the row at
+  /// place i. Throws `Error(bad_argument)` if there are more pairs than 32 bits count.
+  void assign(std::span<const Index> rows, std::span<Found> shares);
+  void add_rows(Index count) {
+    ranges_.resize(ranges_.size() + count);
+    head_.resize(ranges_.size(), kNone);
+  }
   void add(Index row, Index partner) {
     const std::size_t at = added_.size();
     added_.resize(at + 1);
@@ -115,10 +126,10 @@ class PairRows {
   void add(std::span<const Index> rows, Index partner);
 
  private:
-  Index sorted_rows() const { return static_cast<Index>(start_.size()) - 1; }
-  Index length(Index row) const { return start_[row + 1] - start_[row]; }
-
-  std::vector<Index> start_{0};
+  struct Range {
+    Index begin = 0, end = 0;
+  };
+  std::vector<Range> ranges_;  // of `partners_`, by row
   std::vector<Index> partners_;
   struct Added {
     Index partner, next;
@@ -141,7 +152,10 @@ struct SurfaceView {
 /// Candidate pairs node-segment and edge-edge (LC-Grid and its adaptive update; Chen, Zang, Xu 2015, section
 /// 4.1). A pair is a node in a segment's box grown by the buffer, or two edges whose boxes are at most the
 /// buffer apart along every axis; entities that share a node do not pair. The adaptive search takes boxes and
-/// nodes of the last regular search where they were then: it may add pairs that have since moved apart.
+/// nodes of the last regular search where they were then: it may add pairs that have since moved apart. After
+/// any insertions and movements until a regular search is due, those of its pairs whose boxes, where they are
+/// at that moment, are at most what the travel has left of the buffer apart are exactly those of the pairs of
+/// a regular search made at that moment.
 ///
 /// The cells of a row lie side by side in a table that is never longer than twice the entities: where the
 /// space has more, rows are folded onto one another. Time and memory are linear in the entities.

@@ -51,4 +51,10 @@ struct FoundIds {
   bool full() const { return count > room; }
 };
 
+/// The same for entries of a table, by their places there.
+struct FoundPlaces {
+  PairRows::Places* places;
+  std::size_t count, room;
+};
+
 }  // namespace cdfp

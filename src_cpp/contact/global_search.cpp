@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "cdfp/contact.hpp"
 #include "cdfp/error.hpp"
@@ -106,11 +107,11 @@ struct ContactSearch::Cells {
 
   /// `search(begin, end, found)` over the partners, a share for each thread.
   template <class Search>
-  void search_shares(const Threads& threads, Index partners, Index rows, const Search& search) {
+  void search_shares(const Threads& threads, Index partners, std::size_t places, const Search& search) {
     shares.resize(threads.count());
     threads.for_each(threads.count(), [&](std::int64_t t) {
       const std::int64_t begin = partners * t / threads.count(), end = partners * (t + 1) / threads.count();
-      shares[t].start(static_cast<Index>(begin), static_cast<Index>(end - begin), rows);
+      shares[t].start(static_cast<Index>(begin), static_cast<Index>(end - begin), places);
       search(begin, end, shares[t]);
     });
   }
@@ -186,7 +187,6 @@ void ContactSearch::Cells::regular(const SurfaceView& s, const Threads& threads)
                       node_cells.places(),
                       node_cells.stride(),
                       points.size(),
-                      node_cells.ids().data(),
                       names_in_cells.data(),
                       s.segments.data(),
                       s.position.data(),
@@ -197,14 +197,15 @@ void ContactSearch::Cells::regular(const SurfaceView& s, const Threads& threads)
   search_shares(threads, segments, nodes, [&](std::int64_t begin, std::int64_t end, PairRows::Found& here) {
     std::array<Index, kBatch> ends;
     for (std::int64_t m = begin; m < end;) {
-      FoundIds rows{here.room(), 0, here.room_size()};
-      const std::int64_t done = kernels.pair_nodes(job, m, std::min(end, m + kBatch), rows, ends.data());
-      here.took(rows.count, std::span(ends).first(done - m));
+      FoundPlaces found{here.room(), 0, here.room_size()};
+      const std::int64_t done =
+          kernels.pair_nodes(job, m, std::min(end, m + kBatch), found, ends.data(), here.counts());
+      here.took(found.count, std::span(ends).first(done - m));
       if (done < std::min(end, m + kBatch)) here.make_room();
       m = done;
     }
   });
-  node_segments.assign(nodes, shares);
+  node_segments.assign(node_cells.ids(), shares);
   if (open) {
     segment_cells.reset(space, 2 * length);
     segment_cells.build(boxes, true);
@@ -233,7 +234,9 @@ void ContactSearch::Cells::pair_edges(const SurfaceView& s, const RoughBox& spac
       here.end_partner();
     }
   });
-  edge_edges.assign(edges, shares);
+  std::vector<Index> in_order(edges);
+  std::iota(in_order.begin(), in_order.end(), 0);
+  edge_edges.assign(in_order, shares);
 }
 
 void ContactSearch::Cells::remember_names(const SurfaceView& s) {

@@ -26,69 +26,87 @@ void PairRows::compress(std::vector<Index>& start, std::vector<Index>& partners)
 }
 
 std::size_t PairRows::memory() const {
-  return (start_.capacity() + partners_.capacity() + head_.capacity()) * sizeof(Index) + added_.memory();
+  return ranges_.capacity() * sizeof(Range) + (partners_.capacity() + head_.capacity()) * sizeof(Index) +
+         added_.memory();
 }
 
 void PairRows::archive(Archive& a) {
-  a("pairs.start", start_);
+  a("pairs.ranges", ranges_);
   a("pairs.partners", partners_);
   a("pairs.head", head_);
   added_.archive(a, "pairs.added");
 }
 
-void PairRows::Found::start(Index first, Index partners, Index rows) {
+void PairRows::Found::start(Index first, Index partners, std::size_t places) {
   first_ = first, partners_ = partners;
   count_ = 0;
   ends_.clear();
   ends_.reserve(partners);
-  row_counts_.assign(rows, 0);
+  counts_.assign(places + kSpare, 0);
 }
 
 void PairRows::Found::took(std::size_t count, std::span<const Index> ends) {
   for (const Index end : ends) ends_.push_back(static_cast<Index>(count_) + end);
-  for (const std::size_t end = count_ + count; count_ < end; ++count_) ++row_counts_[rows_[count_]];
+  count_ += count;
 }
 
 /// As much as all partners will take if the rest are like those so far.
 void PairRows::Found::make_room() {
   const double share = ends_.empty() ? 1 : static_cast<double>(ends_.size()) / partners_;
   const auto expected = static_cast<std::size_t>(1.05 * static_cast<double>(count_) / std::max(share, 0.01));
-  rows_.resize(std::max(expected, rows_.size() + rows_.size() / 2 + 4096));
+  found_.resize(std::max(expected, found_.size() + found_.size() / 2 + 4096) + kAhead);
 }
 
-void PairRows::assign(Index rows, std::span<Found> shares) {
+void PairRows::Found::scatter(std::span<Index> partners) {
+  if (count_ == 0) return;
+  constexpr std::size_t kNear = 1 << 19;  // partners that the cache next to the processor may hold
+  const Places* found = found_.data();
+  const Places* const first = found;
+  std::uint32_t* const next = counts_.data();
+  Index* const to = partners.data();
+  const auto write = [&](const auto& ask) {
+    Index partner = first_;
+    for (const Index end : ends_) {
+      for (; found < first + end; ++found) {
+        ask(found[kAhead]);
+        for (std::uint32_t bits = found->bits; bits != 0; bits &= bits - 1) {
+          to[next[found->at + __builtin_ctz(bits)]++] = partner;
+        }
+      }
+      ++partner;
+    }
+  };
+  if (partners.size() <= kNear) return write([](const Places&) {});
+  std::fill_n(found_.data() + count_, kAhead, Places{});
+  write([&](const Places& places) {
+    for (std::uint32_t bits = places.bits; bits != 0; bits &= bits - 1) {
+      __builtin_prefetch(&to[next[places.at + __builtin_ctz(bits)]], 1);
+    }
+  });
+}
+
+void PairRows::assign(std::span<const Index> rows, std::span<Found> shares) {
+  ranges_.resize(rows.size());
   std::size_t count = 0;
-  for (const Found& share : shares) count += share.count_;
+  for (std::size_t place = 0; place < rows.size(); ++place) {
+    const std::size_t begin = count;
+    for (Found& share : shares) {
+      count += std::exchange(share.counts_[place], static_cast<std::uint32_t>(count));
+    }
+    ranges_[rows[place]] = {static_cast<Index>(begin), static_cast<Index>(count)};
+  }
   if (count > std::numeric_limits<Index>::max()) {
+    ranges_.assign(rows.size(), {});
+    partners_.clear();
     throw Error(Status::bad_argument,
                 "contact search: " + std::to_string(count) +
                     " pairs are more than 32 bits count; make the buffer factor smaller");
   }
-  start_.resize(static_cast<std::size_t>(rows) + 1);
-  Index at = 0;
-  for (Index r = 0; r < rows; ++r) {
-    start_[r] = at;
-    for (Found& share : shares) at += std::exchange(share.row_counts_[r], at);
-  }
-  start_[rows] = at;
   partners_.resize(count);
   Threads(static_cast<int>(shares.size())).for_each(std::ssize(shares), [&](std::int64_t t) {
-    Found& share = shares[t];
-    if (share.count_ == 0) return;
-    Index* const row = share.rows_.data();
-    std::fill_n(row + share.count_, Found::kAhead, row[0]);
-    Index* const next = share.row_counts_.data();
-    Index* const to = partners_.data();
-    Index partner = share.first_, i = 0;
-    for (const Index end : share.ends_) {
-      for (; i < end; ++i) {
-        __builtin_prefetch(&to[next[row[i + Found::kAhead]]], 1);
-        to[next[row[i]]++] = partner;
-      }
-      ++partner;
-    }
+    shares[t].scatter(partners_);
   });
-  head_.assign(rows, kNone);
+  head_.assign(rows.size(), kNone);
   added_.clear();
 }
 

@@ -17,7 +17,6 @@ struct NodePairs {
   const std::uint16_t* places;  ///< steps along x, then y, then z
   std::size_t stride;           ///< from x to y to z
   std::size_t points;
-  const Index* rows;       ///< of the points
   const Index* nodes;      ///< of the points
   const Index* corners;    ///< (segments, 4)
   const double* position;  ///< (all nodes, 3)
@@ -59,9 +58,10 @@ struct SearchKernels {
   /// Orders points by slice, then as given.
   void (*sort_points)(const PointSort& job);
   /// Segments from `begin` until `end` or until there is no more room, which is what it returns. `ends[i]`:
-  /// where the rows of the i-th of them end.
-  std::int64_t (*pair_nodes)(const NodePairs& job, std::int64_t begin, std::int64_t end, FoundIds& found,
-                             Index* ends);
+  /// where the places of the i-th of them end. `counts`: of segments that each point pairs with; a few past
+  /// the last are written.
+  std::int64_t (*pair_nodes)(const NodePairs& job, std::int64_t begin, std::int64_t end, FoundPlaces& found,
+                             Index* ends, std::uint32_t* counts);
   /// Adds the boxes that overlap `box`, and few others, each once. Their lowest corners lie above `low`.
   void (*find_boxes)(const CellsView<true>& cells, const Float4& low, const RoughBox& box, FoundIds& found);
   /// Adds the segments whose grown boxes, as they are in the table or now, hold the node that is at `place`.

@@ -16,13 +16,13 @@ namespace CDFP_ISA {
 struct Finder {
   const NodePairs& job;
   const Index* corners;
-  FoundIds& found;
+  FoundPlaces& found;
   Wide::Query<false> query;
   Wide::Corners own;
 
   CDFP_ALWAYS_INLINE Finder(const NodePairs& pairs, const Index* of_segment, const Reach& reach,
-                            FoundIds& rows)
-      : job(pairs), corners(of_segment), found(rows), query(reach.low, reach.high), own(of_segment) {}
+                            FoundPlaces& places)
+      : job(pairs), corners(of_segment), found(places), query(reach.low, reach.high), own(of_segment) {}
 
   CDFP_ALWAYS_INLINE bool same_group(Index node) const {
     return job.groups[node] >= 0 && job.groups[node] == job.groups[corners[0]];
@@ -57,12 +57,12 @@ struct Finder {
       if (bits == 0) continue;
       filter(at, bits);
       doubt(at, bits);
-      if (found.room < found.count + Wide::kLanes) {
+      if (found.count >= found.room) {
         found.count = found.room + 1;
         return;
       }
-      Wide::pick(job.rows + at, bits, found.ids + found.count);
-      found.count += static_cast<std::size_t>(__builtin_popcount(bits));
+      found.places[found.count] = {at, bits};
+      found.count += bits != 0;
     }
   }
   CDFP_ALWAYS_INLINE void doubt(std::uint32_t at, Wide::Bits& bits) {
@@ -81,7 +81,7 @@ struct Finder {
 
 /// Where rows are folded, or a segment is so large that it looks at all nodes.
 [[gnu::noinline]] void pair_nodes_far(const NodePairs& job, std::int64_t m, const Reach& reach,
-                                      FoundIds& found) {
+                                      FoundPlaces& found) {
   Finder finder(job, job.corners + 4 * m, reach, found);
   const auto any = [](std::uint32_t, Wide::Bits&) {};
   job.layout.visit_cells(
@@ -99,11 +99,11 @@ struct Finder {
       [&] { finder.scan(0, static_cast<std::uint32_t>(job.points), any); });
 }
 
-std::int64_t pair_nodes(const NodePairs& pairs, std::int64_t begin, std::int64_t end, FoundIds& found_ids,
-                        Index* ends) {
+std::int64_t pair_nodes(const NodePairs& pairs, std::int64_t begin, std::int64_t end,
+                        FoundPlaces& found_places, Index* ends, std::uint32_t* counts) {
   // Copies, which nothing that is written can alias.
   const NodePairs job = pairs;
-  FoundIds found = found_ids;
+  FoundPlaces found = found_places;
   const Reaches reaches(job.layout, job.grow);
   for (std::int64_t m = begin; m < end; ++m) {
     const std::size_t before = found.count;
@@ -115,18 +115,22 @@ std::int64_t pair_nodes(const NodePairs& pairs, std::int64_t begin, std::int64_t
           finder.scan(job.first[from], job.first[to], [](std::uint32_t, Wide::Bits&) {});
         });
     if (!done) {
-      FoundIds far = found;
+      FoundPlaces far = found;
       pair_nodes_far(pairs, m, reach, far);
       found = far;
     }
     if (found.count > found.room) {
-      found_ids.count = before;
-      return m;
+      found.count = before;
+      end = m;
+      break;
     }
     job.boxes[m] = box;
     ends[m - begin] = static_cast<Index>(found.count);
   }
-  found_ids.count = found.count;
+  for (std::size_t i = 0; i < found.count; ++i) {
+    Wide::count(found.places[i].bits, counts + found.places[i].at);
+  }
+  found_places.count = found.count;
   return end;
 }
 

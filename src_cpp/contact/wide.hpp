@@ -115,6 +115,16 @@ struct Wide {
     _mm512_storeu_si512(to + __builtin_popcount(first),
                         _mm512_maskz_compress_epi32(last, _mm512_loadu_si512(ids + 16)));
   }
+  /// One more where bits are set; the others may be written too.
+  CDFP_ALWAYS_INLINE static void count(Bits bits, std::uint32_t* counts) {
+    const auto first = static_cast<__mmask16>(bits), last = static_cast<__mmask16>(bits >> 16);
+    const auto add = [](__mmask16 mask, std::uint32_t* to) {
+      const __m512i sum = _mm512_loadu_si512(to);
+      _mm512_storeu_si512(to, _mm512_mask_add_epi32(sum, mask, sum, _mm512_set1_epi32(1)));
+    };
+    add(first, counts);
+    if (last != 0) add(last, counts + 16);
+  }
   CDFP_ALWAYS_INLINE static void pick_eight(const Index* ids, Bits bits, Index* to) {
     const __m256i eight = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(ids));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
@@ -198,6 +208,14 @@ struct Wide {
     if (bits >> 8 != 0) pick_eight(ids + 8, bits >> 8, to + __builtin_popcount(first));
   }
 
+  CDFP_ALWAYS_INLINE static void count(Bits bits, std::uint32_t* counts) {
+    const __m256i lanes = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    for (; bits != 0; bits >>= 8, counts += 8) {
+      auto* const eight = reinterpret_cast<__m256i*>(counts);
+      const __m256i set = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(bits)), lanes);
+      _mm256_storeu_si256(eight, _mm256_sub_epi32(_mm256_loadu_si256(eight), _mm256_cmpeq_epi32(set, lanes)));
+    }
+  }
   CDFP_ALWAYS_INLINE static void pick_eight(const Index* ids, Bits bits, Index* to) {
     const __m256i lanes =
         _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(kLaneLists[bits].lanes)));
@@ -276,6 +294,9 @@ struct Wide {
   };
   CDFP_ALWAYS_INLINE static void pick(const Index* ids, Bits bits, Index* to) {
     pick_of_eight(ids, bits, to);
+  }
+  CDFP_ALWAYS_INLINE static void count(Bits bits, std::uint32_t* counts) {
+    for (; bits != 0; bits &= bits - 1) ++counts[__builtin_ctz(bits)];
   }
   CDFP_ALWAYS_INLINE static void pick_eight(const Index* ids, Bits bits, Index* to) {
     pick_of_eight(ids, bits, to);
