@@ -18,23 +18,28 @@ class BoxLevels {
     space_ = space, base_ = static_cast<float>(base);
     used_ = 0;
   }
-  void build(std::span<const RoughBox> boxes, bool open) {
+  /// Takes the boxes larger by `grow` on all sides.
+  void build(std::span<const RoughBox> boxes, float grow, bool open) {
+    const auto box_of = [&](Index i) { return grown(boxes[i], grow); };
+    const auto is_small = [&](const RoughBox& box) { return level_of(box) == 0; };
+    if (make_level(boxes.size()).build_if_all(box_of, boxes.size(), is_small, open)) return;
+    used_ = 0;
     for (std::vector<Index>& ids : by_level_) ids.clear();
     std::size_t levels = 0;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-      const std::size_t level = level_of(boxes[i]);
+      const std::size_t level = level_of(box_of(static_cast<Index>(i)));
       if (by_level_.size() <= level) by_level_.resize(level + 1);
       by_level_[level].push_back(static_cast<Index>(i));
       levels = std::max(levels, level + 1);
     }
     while (used_ < levels) {
       const std::vector<Index>& ids = by_level_[used_];
-      make_level(ids.size()).build(boxes, ids, open);
+      make_level(ids.size()).build(box_of, ids, open);
     }
   }
   void insert(const RoughBox& box, Index id) {
     const std::size_t level = level_of(box);
-    while (used_ <= level) make_level(0).build({}, {}, true);
+    while (used_ <= level) make_level(0).build([](Index) { return RoughBox{}; }, {}, true);
     levels_[level].insert(box, id);
   }
   /// `look(cells, low)` into each level: the lowest corners of what overlaps `box` lie above `low`.

@@ -34,25 +34,28 @@ class CellTable {
     added_ = 0;
   }
 
-  /// Takes entries at once, ordered by slice, then as given: `ids[i]` is at `places[ids[i]]`. `open`: more
+  /// Takes entries at once, ordered by slice, then as given: `ids[i]` is at `place_of(ids[i])`. `open`: more
   /// may be inserted later.
-  void build(std::span<const Place> places, std::span<const Index> ids, bool open) {
-    sorted_ = ids.size();
-    stride_ = sorted_ + kSpare;
-    slot_.resize(sorted_);
-    for (std::size_t i = 0; i < sorted_; ++i) {
-      slot_[i] = layout_.slot(lattice()(low_of(places[ids[i]])));
-      ++first_[slot_[i] + 2];
+  template <class PlaceOf>
+  void build(const PlaceOf& place_of, std::span<const Index> ids, bool open) {
+    slot_.resize(ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i) count(i, place_of(ids[i]));
+    sort(
+        place_of, [&](std::size_t i) { return ids[i]; }, open);
+  }
+  /// The same for `place_of(0)` to `place_of(n - 1)`, `n` being the number given to `reset`; stops and
+  /// returns false at the first that does not pass.
+  template <class PlaceOf, class Passes>
+  bool build_if_all(const PlaceOf& place_of, std::size_t n, const Passes& passes, bool open) {
+    slot_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Place place = place_of(static_cast<Index>(i));
+      if (!passes(place)) return false;
+      count(i, place);
     }
-    for (std::uint32_t s = 0; s < layout_.size(); ++s) first_[s + 2] += first_[s + 1];
-    ids_.resize(stride_);
-    places_.resize(kFields * stride_);
-    for (std::size_t i = 0; i < sorted_; ++i) {
-      const std::size_t at = first_[slot_[i] + 1]++;
-      ids_[at] = ids[i];
-      put(places[ids[i]], &places_[at], stride_);
-    }
-    if (open) group_late_.assign(layout_.size() / kGroup, kNone);
+    sort(
+        place_of, [](std::size_t i) { return static_cast<Index>(i); }, open);
+    return true;
   }
 
   /// Takes all points; `names[i]` becomes the node of the i-th point in the table.
@@ -113,6 +116,26 @@ class CellTable {
   std::span<const Index> ids() const { return {ids_.data(), sorted_}; }
 
  private:
+  void count(std::size_t i, const Place& place) {
+    slot_[i] = layout_.slot(lattice()(low_of(place)));
+    ++first_[slot_[i] + 2];
+  }
+  template <class PlaceOf, class IdOf>
+  void sort(const PlaceOf& place_of, const IdOf& id_of, bool open) {
+    sorted_ = slot_.size();
+    stride_ = sorted_ + kSpare;
+    for (std::uint32_t s = 0; s < layout_.size(); ++s) first_[s + 2] += first_[s + 1];
+    ids_.resize(stride_);
+    places_.resize(kFields * stride_);
+    for (std::size_t i = 0; i < sorted_; ++i) {
+      const Index id = id_of(i);
+      const std::size_t at = first_[slot_[i] + 1]++;
+      ids_[at] = id;
+      put(place_of(id), &places_[at], stride_);
+    }
+    if (open) group_late_.assign(layout_.size() / kGroup, kNone);
+  }
+
   static constexpr std::size_t kFields = cdfp::kFields<kBoxes>;
   static constexpr std::uint32_t kGroup = CellLayout::kGroup;
 

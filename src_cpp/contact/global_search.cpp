@@ -208,7 +208,7 @@ void ContactSearch::Cells::regular(const SurfaceView& s, const Threads& threads)
   node_segments.assign(node_cells.ids(), shares);
   if (open) {
     segment_cells.reset(space, 2 * length);
-    segment_cells.build(boxes, true);
+    segment_cells.build(boxes, grow, true);
     remember_names(s);
   }
   pair_edges(s, space, threads);
@@ -223,7 +223,7 @@ void ContactSearch::Cells::pair_edges(const SurfaceView& s, const RoughBox& spac
     }
   });
   edge_cells.reset(space, 1.5 * length);
-  edge_cells.build(edge_boxes, open);
+  edge_cells.build(edge_boxes, 0, open);
   search_shares(threads, edges, edges, [&](std::int64_t begin, std::int64_t end, PairRows::Found& here) {
     std::vector<Index> near_by;
     for (std::int64_t e = begin; e < end; ++e) {

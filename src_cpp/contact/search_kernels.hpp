@@ -21,7 +21,7 @@ struct NodePairs {
   const Index* corners;    ///< (segments, 4)
   const double* position;  ///< (all nodes, 3)
   const Index* groups;     ///< of all nodes, or null
-  RoughBox* boxes;         ///< of segments; grown by the search
+  const RoughBox* boxes;   ///< of segments
   float grow;              ///< by at least the buffer
   double buffer;
 };

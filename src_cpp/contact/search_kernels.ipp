@@ -124,7 +124,6 @@ std::int64_t pair_nodes(const NodePairs& pairs, std::int64_t begin, std::int64_t
       end = m;
       break;
     }
-    job.boxes[m] = box;
     ends[m - begin] = static_cast<Index>(found.count);
   }
   for (std::size_t i = 0; i < found.count; ++i) {
