@@ -206,7 +206,7 @@ int main(int argc, char** argv) {
               "ns/segment", "bytes/segment", "side by side", "scattered");
   // Rounds over all sizes, so that what else the machine does falls on none of them alone.
   std::vector<Row> rows;
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < 6; ++round) {
     std::size_t i = 0;
     for (const double size : {1e4, 3e4, 1e5, 3e5, 1e6, 3e6}) {
       if (size > largest) break;
