@@ -87,6 +87,7 @@ void SurfaceContact::Stages::enforce(TouchingPair& pair, Grip& grip, const Array
     pair.ignored = pair.first_count == 2 && std::min(approach, 0.0) - pair.gap > kSideways * pair.height;
     if (pair.ignored) return;
   }
+  const Vec3 old_drag = grip.drag();
   bound_stiffness(pair, grip, arrays.mass.data(), step);
   if (pair.origin != TouchingPair::Origin::same) {
     // The spring starts, or goes on, as long as this step's approach alone makes it: penetration from before
@@ -95,7 +96,6 @@ void SurfaceContact::Stages::enforce(TouchingPair& pair, Grip& grip, const Array
   }
 
   const double old_pressed = grip.pressed;
-  const Vec3 old_drag = grip.drag;
   const double old_stick_energy = grip.stick_energy();
   grip.pressed = std::min(0.0, pair.gap - grip.offset);
   if (grip.pressed == 0) grip.offset = std::min(0.0, pair.gap);
@@ -111,9 +111,8 @@ void SurfaceContact::Stages::enforce(TouchingPair& pair, Grip& grip, const Array
   grip.stick -= dot(grip.stick, pair.normal) * pair.normal;
   const double stretch = norm(grip.stick), longest = friction * pressure / grip.stiffness;
   if (stretch > longest) grip.stick *= longest / stretch;
-  grip.drag = -grip.stiffness * grip.stick;
-  pair.heat = heat_of_drag(old_drag, grip.drag, aside, old_stick_energy, grip.stick_energy());
-  pair.force += grip.drag;
+  pair.heat = heat_of_drag(old_drag, grip.drag(), aside, old_stick_energy, grip.stick_energy());
+  pair.force += grip.drag();
   pair.stored += grip.stick_energy();
 }
 
@@ -196,7 +195,7 @@ void SurfaceContact::add_force(const Arrays& arrays, double step, int threads) {
     for (const GrippedPair& old : s.ended) {
       const Vec3 slip = step * slip_speed(old.pair, arrays.velocity.data());
       find_or_add(s.body_pairs, old.pair.parts).friction_heat +=
-          heat_of_drag(old.grip.drag, Vec3{}, slip, old.grip.stick_energy(), 0);
+          heat_of_drag(old.grip.drag(), Vec3{}, slip, old.grip.stick_energy(), 0);
     }
   }
   s.ended.clear();

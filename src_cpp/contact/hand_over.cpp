@@ -22,7 +22,6 @@ void take_over(TouchingPair& pair, Grip& grip, const Grip& old, double side) {
   if (pair.origin == TouchingPair::Origin::fresh) {
     grip = old;
     grip.stick *= side;
-    grip.drag *= side;
   } else {
     // The normal spring takes up the other's energy as far as the gap allows (it has an offset to give up).
     grip.pressed =

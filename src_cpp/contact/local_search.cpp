@@ -120,7 +120,7 @@ void SurfaceContact::Stages::touch(Index row, Index segment, const FacePoint& po
   hold.segment = segment;
   hold.piece = static_cast<Index>(&piece - pieces.data());
   hold.place = static_cast<Index>(piece.touches.size()) - 1;
-  hold.xi = point.xi, hold.eta = point.eta;
+  hold.xi = static_cast<float>(point.xi), hold.eta = static_cast<float>(point.eta);
 }
 
 void SurfaceContact::Stages::look_at_node(const double* x, Index row, Piece& piece) {

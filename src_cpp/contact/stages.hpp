@@ -22,7 +22,8 @@ struct Grip {
   double offset = 0;     ///< m, <= 0: penetration from before the pair was seen; it rises with the gap
   double pressed = 0;    ///< m, <= 0: gap less offset, what compresses the normal spring
   Vec3 stick;            ///< m, stretch of the tangential spring
-  Vec3 drag;             ///< N, friction on the first side
+  /// N, friction on the first side.
+  Vec3 drag() const { return -stiffness * stick; }
   double stick_energy() const { return 0.5 * stiffness * dot(stick, stick); }
 };
 
@@ -83,7 +84,7 @@ struct SurfaceContact::Stages {
   struct Hold {
     Index segment = kNone;
     Index piece = 0, place = 0;  // of its touch among those of the pieces
-    double xi = 0, eta = 0;      // where it was on the face
+    float xi = 0, eta = 0;       // about where it was on the face
     Grip grip;
   };
   /// A segment's mean plane, and how far its points lie from centre (when it became a candidate: since then

@@ -140,6 +140,10 @@ void SurfaceContact::regular_search(const Arrays& arrays, int threads) {
     if (!s.search.edge_edges().empty(edge)) s.activate_edge(edge);
   }
   std::sort(s.active_segments.begin(), s.active_segments.end());
+  for (Stages::Piece& piece : s.pieces) {  // room for what no longer touches
+    piece.touches.shrink_to_fit();
+    piece.ended.shrink_to_fit();
+  }
   s.edge_hits.resize(s.active_edges.size());
 }
 
