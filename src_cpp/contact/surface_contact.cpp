@@ -140,7 +140,7 @@ void SurfaceContact::regular_search(const Arrays& arrays, int threads) {
     if (!s.search.edge_edges().empty(edge)) s.activate_edge(edge);
   }
   std::sort(s.active_segments.begin(), s.active_segments.end());
-  for (Stages::Piece& piece : s.pieces) {  // room for what no longer touches
+  for (Stages::Piece& piece : s.pieces) {  // their longest is past
     piece.touches.shrink_to_fit();
     piece.ended.shrink_to_fit();
   }
