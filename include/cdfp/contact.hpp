@@ -170,6 +170,9 @@ class ContactSearch {
 
   /// The same pairs in the same order for any number of threads.
   void regular(const SurfaceView& surface, int threads = 1);
+  /// Gives back the room that a regular search takes while it runs and keeps for the next one (about 100
+  /// bytes a segment). For searches that come seldom.
+  void give_back_room();
   /// Adds the pairs of the entities appended since the last call, and those of old segments and edges that
   /// now name other nodes at the same place. Cost: the new entities and what lies near them.
   void adaptive(const SurfaceView& surface, std::span<const Index> renamed_segments = {},

@@ -37,6 +37,11 @@ class BoxLevels {
       make_level(ids.size()).build(box_of, ids, open);
     }
   }
+  /// What only `build` needs; it takes it anew.
+  void give_back_room() {
+    by_level_ = std::vector<std::vector<Index>>();
+    for (CellTable<true>& level : levels_) level.give_back_room();
+  }
   void insert(const RoughBox& box, Index id) {
     const std::size_t level = level_of(box);
     while (used_ <= level) make_level(0).build([](Index) { return RoughBox{}; }, {}, true);

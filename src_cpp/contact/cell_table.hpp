@@ -72,6 +72,9 @@ class CellTable {
     if (open) group_late_.assign(layout_.size() / kGroup, kNone);
   }
 
+  /// What only `build` needs; it takes it anew.
+  void give_back_room() { slot_ = std::vector<std::uint32_t>(); }
+
   void insert(const Place& place, Index id) {
     Index& head = group_late_[layout_.slot(lattice()(low_of(place))) / kGroup];
     if (head == kNone || links_[head].count == 16) {

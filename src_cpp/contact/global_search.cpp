@@ -32,7 +32,16 @@ constexpr std::int64_t kPiece = 4096;
 /// Segments that one call pairs: what it found is still at hand when it is counted.
 constexpr std::int64_t kBatch = 512;
 
-struct ContactSearch::Cells {
+/// What a regular search needs while it runs; kept for the next.
+struct SearchRoom {
+  std::vector<Float4> points;
+  std::vector<Index> names_in_cells;
+  std::vector<RoughBox> boxes, edge_boxes, spaces;
+  std::vector<double> lengths;          // sums over pieces
+  std::vector<PairRows::Found> shares;  // by thread
+};
+
+struct ContactSearch::Cells : SearchRoom {
   double cell_factor, buffer_factor;
   bool open;
   bool searched = false;
@@ -51,12 +60,6 @@ struct ContactSearch::Cells {
   std::vector<std::size_t> hits_end;
   // As the last call left them, for what a renamed entity was named before.
   std::vector<Index> row_of_node, corners_then, ends_then;
-
-  std::vector<Float4> points;
-  std::vector<Index> names_in_cells;
-  std::vector<RoughBox> boxes, edge_boxes, spaces;
-  std::vector<double> lengths;          // sums over pieces
-  std::vector<PairRows::Found> shares;  // by thread
 
   static bool may_pair(const SurfaceView& s, Index a, Index b) {
     return a != b && (s.groups.empty() || s.groups[a] < 0 || s.groups[a] != s.groups[b]);
@@ -389,6 +392,14 @@ void ContactSearch::adaptive(const SurfaceView& surface, std::span<const Index> 
                 "contact search: an adaptive search needs a regular one before it, and a search made for it");
   }
   cells_->adaptive(surface, renamed_segments, renamed_edges);
+}
+
+void ContactSearch::give_back_room() {
+  Cells& c = *cells_;
+  static_cast<SearchRoom&>(c) = SearchRoom{};
+  c.node_cells.give_back_room();
+  c.segment_cells.give_back_room();
+  c.edge_cells.give_back_room();
 }
 
 bool ContactSearch::due(double largest_speed, double step) {

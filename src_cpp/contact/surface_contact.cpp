@@ -123,6 +123,7 @@ void SurfaceContact::regular_search(const Arrays& arrays, int threads) {
   Stages& s = *stages_;
   s.need_nodes(arrays.position, "position");
   s.search.regular(s.view(arrays), threads);
+  s.search.give_back_room();
   s.grow_to_surface();
   std::fill(s.has_pairs.begin(), s.has_pairs.end(), 0);
   std::fill(s.is_partner.begin(), s.is_partner.end(), 0);
