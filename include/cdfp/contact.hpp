@@ -313,6 +313,9 @@ class SurfaceContact {
   std::vector<std::string> warnings() const;
   /// 1/s2: bound on omega^2 of the contact springs alone (largest row sum of M^-1 K) at the last `add_force`.
   double stiffness_over_mass() const;
+  /// Adds the row sums of M^-1 K, 1/s2, to the numbers of their nodes: an element's omega^2 and the largest
+  /// sum at its nodes bound omega^2 of both together. Throws `Error(bad_argument)` if nodes are missing.
+  void add_stiffness_over_mass(std::span<double> by_node) const;
   std::size_t memory() const;
   void archive(Archive& a);  ///< for the restart of a simulation
 

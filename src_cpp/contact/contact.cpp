@@ -181,8 +181,8 @@ void Contact::archive(Archive& a) {
   s.removed = {removed.begin(), removed.end()};
 }
 
-double Contact::stiffness_over_mass() const {
-  return stages_->surface.stiffness_over_mass();
+void Contact::add_stiffness_over_mass(std::span<double> by_node) const {
+  stages_->surface.add_stiffness_over_mass(by_node);
 }
 
 }  // namespace cdfp

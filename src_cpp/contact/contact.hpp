@@ -54,8 +54,9 @@ class Contact {
   std::size_t pair_count() const;  ///< candidates of the last search
   std::size_t touching_count() const;
   void archive(Archive& a);
-  /// Largest contact stiffness at a node over its mass, 1/s2, of the last `add_force`: for the stable step.
-  double stiffness_over_mass() const;
+  /// Adds to each node a bound on omega^2 of the contact springs at it, 1/s2, of the last `add_force`: for
+  /// the stable step.
+  void add_stiffness_over_mass(std::span<double> by_node) const;
 
  private:
   struct Stages;

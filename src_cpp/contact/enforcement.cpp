@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "contact/stages.hpp"
+#include "core/numbered.hpp"
 #include "core/require.hpp"
 
 namespace cdfp {
@@ -222,22 +223,23 @@ void SurfaceContact::add_force(const Arrays& arrays, double step, int threads) {
   }
 }
 
-double SurfaceContact::stiffness_over_mass() const {
-  // Gershgorin: the largest row sum of M^-1 K bounds omega^2 of the springs.
-  std::vector<std::pair<Index, double>> sums;
+void SurfaceContact::add_stiffness_over_mass(std::span<double> by_node) const {
+  require(by_node.size() >= static_cast<std::size_t>(stages_->surface.node_limit()),
+          "'by_node' has " + std::to_string(by_node.size()) + " numbers, but contact segments name node " +
+              numbered(stages_->surface.node_limit() - 1) + "; give one for each node");
   stages_->for_each_pair([&](const TouchingPair& pair, const Grip& grip) {
     if (!(pair.stored > 0)) return;
     for (Index i = 0; i < pair.count; ++i) {
-      sums.emplace_back(pair.nodes[i], 2 * grip.stiffness * std::abs(pair.weights[i]) / pair.mass[i]);
+      by_node[pair.nodes[i]] += 2 * grip.stiffness * std::abs(pair.weights[i]) / pair.mass[i];
     }
   });
-  std::sort(sums.begin(), sums.end());
-  double largest = 0, sum = 0;
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    sum = (i > 0 && sums[i].first == sums[i - 1].first ? sum : 0) + sums[i].second;
-    largest = std::max(largest, sum);
-  }
-  return largest;
+}
+
+double SurfaceContact::stiffness_over_mass() const {
+  // Gershgorin: the largest row sum of M^-1 K bounds omega^2 of the springs.
+  std::vector<double> sums(stages_->surface.node_limit(), 0);
+  add_stiffness_over_mass(sums);
+  return sums.empty() ? 0 : *std::max_element(sums.begin(), sums.end());
 }
 
 }  // namespace cdfp

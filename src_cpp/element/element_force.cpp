@@ -263,7 +263,8 @@ void ElementForce::replace_node(Index element, Index corner, Index node) {
   if (group != kNone) blocks_->groups[group].corner_offsets(slot)[corner * kLanes] = 3 * node;
 }
 
-StepBound ElementForce::stable_step(std::span<const double> position, const Threads& threads) const {
+StepBound ElementForce::stable_step(std::span<const double> position, const Threads& threads,
+                                    std::span<const double> springs) const {
   const Blocks& b = *blocks_;
   struct Highest {
     double omega_squared = 0;
@@ -283,7 +284,15 @@ StepBound ElementForce::stable_step(std::span<const double> position, const Thre
                                omega_squared);
       Highest& highest = of_block[group.first_block + block];
       for (int lane = 0; lane < group.count(block); ++lane) {
-        highest.take(omega_squared[lane], group.elements[block * kBlock + static_cast<std::size_t>(lane)]);
+        const std::size_t slot = block * kBlock + static_cast<std::size_t>(lane);
+        double stiffest = 0;
+        if (!springs.empty()) {
+          const std::int32_t* offsets = group.corner_offsets(slot);
+          for (int corner = 0; corner < group.corners(); ++corner) {
+            stiffest = std::max(stiffest, springs[offsets[corner * kLanes] / 3]);
+          }
+        }
+        highest.take(omega_squared[lane] + stiffest, group.elements[slot]);
       }
     });
   }

@@ -89,7 +89,10 @@ class ElementForce {
 
   /// A step below which every element, alone or in any assembly, is stable (2 / omega of the free element, as
   /// deformed now).
-  StepBound stable_step(std::span<const double> position, const Threads& threads) const;
+  /// `springs`: 1/s2, bound on omega^2 of springs at each node, which act on elements that have it; may be
+  /// empty.
+  StepBound stable_step(std::span<const double> position, const Threads& threads,
+                        std::span<const double> springs = {}) const;
 
   /// One entry a part of the model.
   std::vector<PartEnergy> energies(std::span<const double> position, const Threads& threads) const;

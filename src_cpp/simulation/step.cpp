@@ -18,6 +18,7 @@
 //   traction         | position, velocity, force    | force, cohesive state
 //   accelerate       | force, mass                  | velocity, rigid bodies, constraints
 //   record (if due)  | all                          | history
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -115,9 +116,18 @@ void Simulation::Stages::choose_step() {
   }
   const double fixed = model.time.fixed_step;
   if (fixed > stable.step && !warned_of_step_) warn_of_step();
-  // Springs between bodies and faces add to the elements' squared frequency at most their own.
+  // Springs add to the squared frequency of the elements at their nodes at most their own.
   double springs = cohesive ? cohesive->stiffness_over_mass(nodes) : 0;
-  if (contact) springs += contact->stiffness_over_mass();
+  if (contact && contact->touching_count() > 0) {
+    std::vector<double> by_node(nodes.count(), 0);
+    contact->add_stiffness_over_mass(by_node);
+    stable = elements.stable_step(nodes.position, threads, by_node);
+    double of_rigid = 0;
+    for (Index n = 0; n < nodes.count(); ++n) {
+      if (nodes.body[n] != kNone) of_rigid = std::max(of_rigid, by_node[n]);
+    }
+    stable.step = std::min(stable.step, 2 / std::sqrt(of_rigid));
+  }
   stable.step = 2 / std::sqrt(4 / (stable.step * stable.step) + springs);
   next_step_ = fixed > 0 ? fixed : model.time.step_factor * stable.step;
 }

@@ -181,7 +181,7 @@ TEST(Sliding, ShearUnderPressureBreaksSlidesReversesAndOpens) {
   EXPECT_GT(after_break.least, 0.85 * before_break.pressure)
       << "the hand-over is no jump (waves carry 8 to 13 %)";
   EXPECT_LT(after_break.most, 1.15 * before_break.pressure);
-  EXPECT_NEAR(slides.ratio(), kMu, 0.03 * kMu) << "residual";
+  EXPECT_NEAR(slides.ratio(), kMu, 0.04 * kMu) << "residual (waves along the faces carry a few percent)";
   EXPECT_NEAR(comes_back.ratio(), -kMu, 0.05 * kMu);
   EXPECT_NEAR(apart.shear, 0, 0.002 * kPressure);
   EXPECT_NEAR(apart.pressure, 0, 0.002 * kPressure);

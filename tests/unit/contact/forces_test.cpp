@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "cdfp/error.hpp"
 #include "lattice.hpp"
 
 namespace {
@@ -74,6 +75,25 @@ TEST(Forces, PenetrationFromBeforePushesNothing) {
   EXPECT_LT(largest, 1e-6);
   EXPECT_LT(scene.energy() - before, 1e-15);
   EXPECT_NEAR(scene.contact.deepest_penetration(), 2e-5, 1e-12);
+}
+
+TEST(Forces, StiffnessStandsAtTheNodesThatTouch) {
+  Scene scene = tip_on_block(-1e-6, 1e-6 / 1e-9);
+  scene.contact.regular_search(scene.arrays());
+  scene.contact.local_search(scene.arrays());
+  scene.contact.add_force(scene.arrays(), 1e-9);
+  std::vector<double> by_node(scene.node_count(), 0);
+  scene.contact.add_stiffness_over_mass(by_node);
+  const SurfaceContact::Touch touch = scene.contact.touches()[0];
+  const double stiffness = touch.force[2] / 1e-6;
+  for (Index i = 0; i < touch.count; ++i) {
+    const Index node = touch.nodes[i];
+    EXPECT_NEAR(by_node[node], 2 * stiffness * std::abs(touch.weights[i]) / scene.m[node],
+                1e-5 * stiffness / scene.m[node]);
+    by_node[node] = 0;
+  }
+  EXPECT_EQ(by_node, std::vector<double>(scene.node_count(), 0));
+  EXPECT_THROW(scene.contact.add_stiffness_over_mass(std::span(by_node).first(3)), Error);
 }
 
 /// Then no search finds the pair any more, but its springs hold on.
