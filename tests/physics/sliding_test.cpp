@@ -145,6 +145,8 @@ TEST(Sliding, ShearUnderPressureBreaksSlidesReversesAndOpens) {
            {0, kSpeed, kSpeed, -kSpeed, -kSpeed, 0}),
       move("top", 2, {0, 0.5 * kPressed, kPressed, rests, rests + ramp}, {0, -v, 0, 0, 8})};
   model.time.end = rests + 200e-6;
+  model.time.step_factor =
+      0.8;  // waves along the faces, which carry part of the shear, are longer than a step
   Simulation s(std::move(model));
   Stretch peak, softens, slides, comes_back, apart, before_break, after_break;
   double slip = 0, broken_at = 0, expected_heat = 0, misses = 0;
@@ -181,7 +183,7 @@ TEST(Sliding, ShearUnderPressureBreaksSlidesReversesAndOpens) {
   EXPECT_GT(after_break.least, 0.85 * before_break.pressure)
       << "the hand-over is no jump (waves carry 8 to 13 %)";
   EXPECT_LT(after_break.most, 1.15 * before_break.pressure);
-  EXPECT_NEAR(slides.ratio(), kMu, 0.04 * kMu) << "residual (waves along the faces carry a few percent)";
+  EXPECT_NEAR(slides.ratio(), kMu, 0.03 * kMu) << "residual";
   EXPECT_NEAR(comes_back.ratio(), -kMu, 0.05 * kMu);
   EXPECT_NEAR(apart.shear, 0, 0.002 * kPressure);
   EXPECT_NEAR(apart.pressure, 0, 0.002 * kPressure);
