@@ -263,8 +263,8 @@ void ElementForce::replace_node(Index element, Index corner, Index node) {
   if (group != kNone) blocks_->groups[group].corner_offsets(slot)[corner * kLanes] = 3 * node;
 }
 
-StepBound ElementForce::stable_step(std::span<const double> position, const Threads& threads,
-                                    std::span<const double> springs) const {
+StepBounds ElementForce::stable_steps(std::span<const double> position, const Threads& threads,
+                                      std::span<const double> springs) const {
   const Blocks& b = *blocks_;
   struct Highest {
     double omega_squared = 0;
@@ -274,15 +274,19 @@ StepBound ElementForce::stable_step(std::span<const double> position, const Thre
     void take(double value, Index of) {
       if (!(value <= omega_squared) && !std::isnan(omega_squared)) omega_squared = value, element = of;
     }
+    StepBound bound() const { return {2 / std::sqrt(omega_squared), element}; }
   };
-  std::vector<Highest> of_block(b.block_count);
+  struct Both {
+    Highest alone, with_springs;
+  };
+  std::vector<Both> of_block(b.block_count);
   for (const BlockGroup& group : b.groups) {
     threads.for_each(static_cast<std::int64_t>(group.blocks()), [&](std::int64_t i) {
       const auto block = static_cast<std::size_t>(i);
       alignas(Lanes) double omega_squared[kBlock];
       group.kernel->step_bound(group.input(block, position), &group.step_terms[4 * kRows * block],
                                omega_squared);
-      Highest& highest = of_block[group.first_block + block];
+      Both& highest = of_block[group.first_block + block];
       for (int lane = 0; lane < group.count(block); ++lane) {
         const std::size_t slot = block * kBlock + static_cast<std::size_t>(lane);
         double stiffest = 0;
@@ -292,13 +296,17 @@ StepBound ElementForce::stable_step(std::span<const double> position, const Thre
             stiffest = std::max(stiffest, springs[offsets[corner * kLanes] / 3]);
           }
         }
-        highest.take(omega_squared[lane] + stiffest, group.elements[slot]);
+        highest.alone.take(omega_squared[lane], group.elements[slot]);
+        highest.with_springs.take(omega_squared[lane] + stiffest, group.elements[slot]);
       }
     });
   }
-  Highest highest;
-  for (const Highest& h : of_block) highest.take(h.omega_squared, h.element);
-  return {2 / std::sqrt(highest.omega_squared), highest.element};
+  Both highest;
+  for (const Both& h : of_block) {
+    highest.alone.take(h.alone.omega_squared, h.alone.element);
+    highest.with_springs.take(h.with_springs.omega_squared, h.with_springs.element);
+  }
+  return {highest.alone.bound(), highest.with_springs.bound()};
 }
 
 std::vector<PartEnergy> ElementForce::energies(std::span<const double> position,

@@ -22,6 +22,9 @@ struct StepBound {
   double step = 0;  ///< s
   Index element = kNone;
 };
+struct StepBounds {
+  StepBound alone, with_springs;
+};
 
 class ElementForce {
  public:
@@ -89,10 +92,13 @@ class ElementForce {
 
   /// A step below which every element, alone or in any assembly, is stable (2 / omega of the free element, as
   /// deformed now).
-  /// `springs`: 1/s2, bound on omega^2 of springs at each node, which act on elements that have it; may be
-  /// empty.
-  StepBound stable_step(std::span<const double> position, const Threads& threads,
-                        std::span<const double> springs = {}) const;
+  StepBound stable_step(std::span<const double> position, const Threads& threads) const {
+    return stable_steps(position, threads, {}).alone;
+  }
+  /// Also with springs between nodes. `springs`: 1/s2, bound on omega^2 of those at each node, which act on
+  /// the elements that have it; may be empty.
+  StepBounds stable_steps(std::span<const double> position, const Threads& threads,
+                          std::span<const double> springs) const;
 
   /// One entry a part of the model.
   std::vector<PartEnergy> energies(std::span<const double> position, const Threads& threads) const;

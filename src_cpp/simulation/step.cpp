@@ -108,7 +108,13 @@ void Simulation::Stages::accelerate_all() {
 }
 
 void Simulation::Stages::choose_step() {
-  stable = elements.stable_step(nodes.position, threads);
+  std::vector<double> by_node;
+  if (contact && contact->touching_count() > 0) {
+    by_node.assign(nodes.count(), 0);
+    contact->add_stiffness_over_mass(by_node);
+  }
+  const StepBounds bounds = elements.stable_steps(nodes.position, threads, by_node);
+  stable = bounds.alone;
   if (!(stable.step > 0) || !std::isfinite(stable.step)) {
     throw Error(Status::diverged,
                 "no stable step at time " + std::to_string(time) + " s: element " + numbered(stable.element) +
@@ -118,16 +124,12 @@ void Simulation::Stages::choose_step() {
   if (fixed > stable.step && !warned_of_step_) warn_of_step();
   // Springs add to the squared frequency of the elements at their nodes at most their own.
   double springs = cohesive ? cohesive->stiffness_over_mass(nodes) : 0;
-  if (contact && contact->touching_count() > 0) {
-    std::vector<double> by_node(nodes.count(), 0);
-    contact->add_stiffness_over_mass(by_node);
-    stable = elements.stable_step(nodes.position, threads, by_node);
-    double of_rigid = 0;
-    for (Index n = 0; n < nodes.count(); ++n) {
-      if (nodes.body[n] != kNone) of_rigid = std::max(of_rigid, by_node[n]);
-    }
-    stable.step = std::min(stable.step, 2 / std::sqrt(of_rigid));
+  stable = bounds.with_springs;
+  double of_rigid = 0;
+  for (std::size_t n = 0; n < by_node.size(); ++n) {
+    if (nodes.body[n] != kNone) of_rigid = std::max(of_rigid, by_node[n]);
   }
+  stable.step = std::min(stable.step, 2 / std::sqrt(of_rigid));
   stable.step = 2 / std::sqrt(4 / (stable.step * stable.step) + springs);
   next_step_ = fixed > 0 ? fixed : model.time.step_factor * stable.step;
 }

@@ -145,8 +145,7 @@ TEST(Sliding, ShearUnderPressureBreaksSlidesReversesAndOpens) {
            {0, kSpeed, kSpeed, -kSpeed, -kSpeed, 0}),
       move("top", 2, {0, 0.5 * kPressed, kPressed, rests, rests + ramp}, {0, -v, 0, 0, 8})};
   model.time.end = rests + 200e-6;
-  model.time.step_factor =
-      0.8;  // waves along the faces, which carry part of the shear, are longer than a step
+  model.time.step_factor = 0.8;  // the step of the figures below
   Simulation s(std::move(model));
   Stretch peak, softens, slides, comes_back, apart, before_break, after_break;
   double slip = 0, broken_at = 0, expected_heat = 0, misses = 0;
