@@ -57,9 +57,9 @@ Model blocks() {
   }
   mesh.node_sets = {all, bottom, below, above, top};
   mesh.facet_sets = {ends};
-  // The glass is viscous a little: friction excites waves along the faces (Adams 1998), which would blur the
-  // means.
-  model.materials = {{"glass", RateDependentMaterial{2500, 0, 40e9, 10e9, 0.1, 1e-7}},
+  // Friction excites waves along the faces (Adams 1995), which grow from rounding and carry a tenth of the
+  // pressure: the glass is viscous enough to damp them.
+  model.materials = {{"glass", RateDependentMaterial{2500, 0, 40e9, 5e9, 0.3, 1e-7}},
                      {"rubber", ElasticMaterial{1000, 1e9, 0}}};
   CohesiveLaw law;
   law.name = "interface";
@@ -145,7 +145,6 @@ TEST(Sliding, ShearUnderPressureBreaksSlidesReversesAndOpens) {
            {0, kSpeed, kSpeed, -kSpeed, -kSpeed, 0}),
       move("top", 2, {0, 0.5 * kPressed, kPressed, rests, rests + ramp}, {0, -v, 0, 0, 8})};
   model.time.end = rests + 200e-6;
-  model.time.step_factor = 0.8;  // the step of the figures below
   Simulation s(std::move(model));
   Stretch peak, softens, slides, comes_back, apart, before_break, after_break;
   double slip = 0, broken_at = 0, expected_heat = 0, misses = 0;
@@ -176,14 +175,13 @@ TEST(Sliding, ShearUnderPressureBreaksSlidesReversesAndOpens) {
   EXPECT_NEAR(peak.shear, strength, 0.025 * strength);
   EXPECT_NEAR(misses / softens.count, 0, 0.01 * strength) << "cohesion and friction on the way, the mean";
   EXPECT_NEAR(broken_at, 2 * kKappa * kEnergy / peak.shear, 0.02 * kReach) << "2 G_II / peak";
-  EXPECT_GT(before_break.least, 0.96 * before_break.pressure);
-  EXPECT_LT(before_break.most, 1.04 * before_break.pressure);
-  EXPECT_NEAR(after_break.pressure, before_break.pressure, 0.02 * before_break.pressure);
-  EXPECT_GT(after_break.least, 0.85 * before_break.pressure)
-      << "the hand-over is no jump (waves carry 8 to 13 %)";
-  EXPECT_LT(after_break.most, 1.15 * before_break.pressure);
-  EXPECT_NEAR(slides.ratio(), kMu, 0.03 * kMu) << "residual";
-  EXPECT_NEAR(comes_back.ratio(), -kMu, 0.05 * kMu);
+  EXPECT_GT(before_break.least, 0.98 * before_break.pressure);
+  EXPECT_LT(before_break.most, 1.02 * before_break.pressure);
+  EXPECT_NEAR(after_break.pressure, before_break.pressure, 0.01 * before_break.pressure);
+  EXPECT_GT(after_break.least, 0.94 * before_break.pressure) << "the hand-over is no jump";
+  EXPECT_LT(after_break.most, 1.05 * before_break.pressure);
+  EXPECT_NEAR(slides.ratio(), kMu, 0.02 * kMu) << "residual";
+  EXPECT_NEAR(comes_back.ratio(), -kMu, 0.03 * kMu);
   EXPECT_NEAR(apart.shear, 0, 0.002 * kPressure);
   EXPECT_NEAR(apart.pressure, 0, 0.002 * kPressure);
   const Energies energies = s.energies();
