@@ -1,4 +1,4 @@
-/// What the functions of `cdfp/cdfp.h` share: handles, and exceptions turned into status codes.
+/// What the functions of the C interface share: handles, and exceptions turned into status codes.
 ///
 /// A handle is a number that is given out once and never again, dressed as a pointer: a stale handle is
 /// looked up, not found and refused; it is never followed. The table only knows which handles live.

@@ -1,4 +1,4 @@
-!> The C interface of cdfp, one to one: see cdfp/cdfp.h, which says what each function does. Numbers count
+!> The C interface of cdfp, one to one: see cdfp/cdfp.h and cdfp/c, which say what each function does. Numbers count
 !> from 0 here and strings end with c_null_char; the module `cdfp` is what Fortran programs call. Results are
 !> `intent(inout)` since a call that fails leaves them as they are.
 module cdfp_c

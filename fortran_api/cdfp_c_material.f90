@@ -1,4 +1,4 @@
-!> Users' bulk materials in the C interface: see cdfp_c, cdfp/cdfp.h and cdfp/material.h.
+!> Users' bulk materials in the C interface: see cdfp_c, cdfp/c/material.h and cdfp/material.h.
 module cdfp_c_material
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int32_t, c_int64_t, c_ptr
   implicit none

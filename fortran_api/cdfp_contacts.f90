@@ -244,7 +244,7 @@ contains
                                      outside), stat, errmsg)
   end subroutine
 
-  !> What is absent is as in a model: see `cdfp_contact_settings` in cdfp/cdfp.h.
+  !> What is absent is as in a model: see `cdfp_contact_settings` in cdfp/c/model.h.
   subroutine create(this, cell_factor, buffer_factor, penalty_factor, friction, depth_limit, edge_edge, &
                     adaptive, penetration_warning, stat, errmsg)
     class(cdfp_contact), intent(inout) :: this

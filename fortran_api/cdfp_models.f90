@@ -581,7 +581,7 @@ contains
     call report(cdfp_model_add_contact_surface(this%handle%address, c_text(facet_set)), stat, errmsg)
   end subroutine
 
-  !> What is absent stays as it is: see `cdfp_contact_settings` in cdfp/cdfp.h.
+  !> What is absent stays as it is: see `cdfp_contact_settings` in cdfp/c/model.h.
   subroutine set_contact(this, cell_factor, buffer_factor, penalty_factor, friction, depth_limit, edge_edge, &
                          adaptive, penetration_warning, stat, errmsg)
     class(cdfp_model), intent(in) :: this

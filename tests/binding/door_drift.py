@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Holds the modules fortran_api/cdfp_c*.f90 against include/cdfp/cdfp.h: functions, arguments by name, order, kind, `const` and
-`value`, structs by member, constants; and every function against the symbols of the library.
+"""Holds the modules fortran_api/cdfp_c*.f90 against the headers include/cdfp/c/*.h: functions, arguments by name, order, kind,
+`const` and `value`, structs by member, constants; and every function against the symbols of the library.
 
-    door_drift.py HEADER FORTRAN_COMPILER NM LIBRARY INTERFACES...
+    door_drift.py HEADERS FORTRAN_COMPILER NM LIBRARY INTERFACES...
 """
 import pathlib
 import re
@@ -112,10 +112,10 @@ DRIFT = [
 
 
 def main():
-    header_path, compiler, nm, library, *source_paths = sys.argv[1:]
-    header = pathlib.Path(header_path).read_text()
+    folder, compiler, nm, library, *source_paths = sys.argv[1:]
+    paths = [*sorted(pathlib.Path(folder, "c").glob("*.h")), pathlib.Path(folder, "material.h")]
+    header = "".join(path.read_text() for path in paths)
     source = "".join(pathlib.Path(path).read_text() for path in source_paths)
-    header += (pathlib.Path(header_path).parent / "material.h").read_text()
     faults = differences(header, source, compiler)
 
     for what, old, new in DRIFT:
@@ -128,7 +128,7 @@ def main():
     symbols = {line.split()[-1] for line in listing.stdout.splitlines() if " T " in line}
     wanted = set(declarations(header)[1])
     faults += [f"{name} is not in the library" for name in sorted(wanted - symbols)]
-    faults += [f"{name} is in the library but not in the header"
+    faults += [f"{name} is in the library but in no header"
                for name in sorted(symbols - wanted) if name.startswith("cdfp_")]
 
     print("\n".join(faults) or f"{len(wanted)} functions agree")

@@ -1,5 +1,5 @@
 // Every field of a model can be set through the C interface, and results come out of it as they are. The
-// structured bindings count the fields: who adds one to a C++ struct is sent here, and from here to cdfp.h.
+// structured bindings count the fields: who adds one to a C++ struct is sent here, and from here to cdfp/c.
 #include <gtest/gtest.h>
 
 #include <array>
