@@ -3,7 +3,7 @@
 
 #include "c_gate.hpp"
 #include "cdfp/material_library.hpp"
-#include "scene/scene.hpp"
+#include "model/lookup.hpp"
 
 using namespace cdfp;
 using namespace cdfp::gate;

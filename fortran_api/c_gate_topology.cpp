@@ -4,6 +4,7 @@
 
 #include "c_gate.hpp"
 #include "core/numbered.hpp"
+#include "topology/templates.hpp"
 
 using namespace cdfp;
 using namespace cdfp::gate;
@@ -68,7 +69,6 @@ std::vector<cdfp::ElementType> cdfp::gate::element_types_of(std::size_t elements
   std::vector<ElementType> found(elements, ElementType::hexahedron);
   std::size_t wanted = 8 * elements;
   if (types) {
-    static constexpr std::size_t corners_of[] = {8, 4, 6, 5};
     wanted = 0;
     for (std::size_t i = 0; i < elements; ++i) {
       if (types[i] < CDFP_HEXAHEDRON || types[i] > CDFP_PYRAMID) {
@@ -76,7 +76,7 @@ std::vector<cdfp::ElementType> cdfp::gate::element_types_of(std::size_t elements
                "; take CDFP_HEXAHEDRON, CDFP_TETRAHEDRON, CDFP_WEDGE or CDFP_PYRAMID");
       }
       found[i] = static_cast<ElementType>(types[i]);
-      wanted += corners_of[types[i]];
+      wanted += element_template(found[i]).corner_count;
     }
   }
   if (corners != wanted) {

@@ -8,6 +8,7 @@
 #include "cdfp/error.hpp"
 #include "cohesive/zone_points.hpp"
 #include "core/numbered.hpp"
+#include "model/lookup.hpp"
 
 namespace cdfp {
 
@@ -17,11 +18,7 @@ CohesiveZone::Points::Points(const Model& model, CohesiveScheme chosen)
   law_of_part.assign(model.mesh.part_names.size(), -1);
   for (const Part& part : model.parts) {
     if (part.cohesive_law.empty()) continue;
-    const auto name = std::find(model.mesh.part_names.begin(), model.mesh.part_names.end(), part.name);
-    if (name == model.mesh.part_names.end()) {
-      throw Error(Status::bad_argument, "the mesh has no part '" + part.name + "'");
-    }
-    law_of_part[name - model.mesh.part_names.begin()] = law_number(part.cohesive_law);
+    law_of_part[part_number(model.mesh, part.name)] = law_number(part.cohesive_law);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "cdfp/error.hpp"
 #include "core/vec3.hpp"
+#include "model/lookup.hpp"
 
 namespace cdfp {
 
@@ -45,14 +46,8 @@ FacetStrength::FacetStrength(const Model& model)
   law_of_part_.assign(model.mesh.part_names.size(), -1);
   for (const Part& part : model.parts) {
     if (part.cohesive_law.empty()) continue;
-    const auto name = std::find(model.mesh.part_names.begin(), model.mesh.part_names.end(), part.name);
-    const auto law = std::find_if(laws_.begin(), laws_.end(),
-                                  [&](const CohesiveLaw& l) { return l.name == part.cohesive_law; });
-    if (name == model.mesh.part_names.end() || law == laws_.end()) {
-      throw Error(Status::bad_argument, "part '" + part.name + "' or its cohesive law '" + part.cohesive_law +
-                                            "' does not exist in the model");
-    }
-    law_of_part_[name - model.mesh.part_names.begin()] = static_cast<std::int32_t>(law - laws_.begin());
+    const auto law = &cohesive_law(model, part.cohesive_law) - model.cohesive_laws.data();
+    law_of_part_[part_number(model.mesh, part.name)] = static_cast<std::int32_t>(law);
   }
   find_least(model);
   if (model.stress_recovery == StressRecovery::nodal) spread_over_nodes(model);
@@ -102,12 +97,10 @@ void FacetStrength::spread_over_nodes(const Model& model) {
   least_ = std::move(least);
   const std::vector<Index>& nodes = model.mesh.connectivity;
   std::vector<double> at_node(model.mesh.node_count(), kInfinite);
+  const std::vector<Index> first = first_corners(model.mesh);
   const auto for_corners = [&](auto&& visit) {
-    std::size_t first = 0;
     for (std::size_t e = 0; e < part_of_element_.size(); ++e) {
-      static constexpr std::size_t corners[] = {8, 4, 6, 5};
-      const std::size_t last = first + corners[static_cast<std::size_t>(model.mesh.types[e])];
-      for (; first < last; ++first) visit(e, nodes[first]);
+      for (Index i = first[e]; i < first[e + 1]; ++i) visit(e, nodes[i]);
     }
   };
   for_corners([&](std::size_t e, Index n) { at_node[n] = std::min(at_node[n], least_[e]); });

@@ -6,8 +6,8 @@
 #include <variant>
 
 #include "cdfp/contact.hpp"
-#include "cdfp/error.hpp"
 #include "core/archive.hpp"
+#include "model/lookup.hpp"
 
 namespace cdfp {
 
@@ -58,23 +58,10 @@ Contact::Contact(const Model& model, const Topology& topology)
   s.surface.name_parts(model.mesh.part_names);
   s.bulk_modulus.assign(model.mesh.part_names.size(), 0);
   for (const Part& part : model.parts) {
-    const auto name = std::find(model.mesh.part_names.begin(), model.mesh.part_names.end(), part.name);
-    const auto material = std::find_if(model.materials.begin(), model.materials.end(),
-                                       [&](const Material& m) { return m.name == part.material; });
-    if (name == model.mesh.part_names.end() || material == model.materials.end()) {
-      throw Error(Status::bad_argument, "contact: part \"" + part.name + "\" or its material \"" +
-                                            part.material + "\" is not in the model; correct the name");
-    }
-    s.bulk_modulus[name - model.mesh.part_names.begin()] = bulk_modulus(*material);
+    s.bulk_modulus[part_number(model.mesh, part.name)] = bulk_modulus(material(model, part.material));
   }
   for (const std::string& name : model.contact.surfaces) {
-    const auto set = std::find_if(model.mesh.facet_sets.begin(), model.mesh.facet_sets.end(),
-                                  [&](const FacetSet& f) { return f.name == name; });
-    if (set == model.mesh.facet_sets.end()) {
-      throw Error(Status::bad_argument,
-                  "contact.surfaces names \"" + name + "\", which is no facet set of the mesh");
-    }
-    for (const FacetUse use : set->facets) {
+    for (const FacetUse use : facet_set(model.mesh, name).facets) {
       if (topology.mate(use).element != kNone) {
         s.dormant.push_back(Stages::key(use));
       } else if (!s.surface.has_facet(topology, use)) {  // sets may share facets

@@ -11,7 +11,7 @@
 #include "cdfp/laminated_plate.hpp"
 #include "cdfp/material_library.hpp"
 #include "driver/toml_table.hpp"
-#include "scene/scene.hpp"
+#include "model/lookup.hpp"
 
 namespace cdfp {
 

@@ -13,6 +13,7 @@
 #include "driver/case_reader.hpp"
 #include "driver/large_blocks.hpp"
 #include "driver/run_case.hpp"
+#include "model/lookup.hpp"
 #include "scene/scene.hpp"
 
 namespace {

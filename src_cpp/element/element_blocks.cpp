@@ -15,6 +15,7 @@
 #include "element/tetrahedron.hpp"
 #include "element/wedge.hpp"
 #include "element/wedge_geometry.hpp"
+#include "model/lookup.hpp"
 
 namespace cdfp {
 
@@ -173,10 +174,7 @@ float rounded_up(double value) {
   return nearest < value ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
 }
 
-/// Where each element's corners start in the connectivity.
-std::vector<Index> first_corners_of(const Mesh& mesh) {
-  std::vector<Index> first{0};
-  first.reserve(mesh.types.size() + 1);
+void require_stiffness(const Mesh& mesh) {
   for (Index e = 0; e < mesh.element_count(); ++e) {
     const ElementType type = mesh.types[e];
     if (type != ElementType::hexahedron && type != ElementType::tetrahedron && type != ElementType::wedge) {
@@ -185,11 +183,7 @@ std::vector<Index> first_corners_of(const Mesh& mesh) {
                       " is no hexahedron, tetrahedron or wedge; only these have a stiffness, so mesh part '" +
                       mesh.part_names[mesh.parts[e]] + "' with them (a pyramid makes two tetrahedra)");
     }
-    first.push_back(first.back() + (type == ElementType::hexahedron ? 8
-                                    : type == ElementType::wedge    ? 6
-                                                                    : 4));
   }
-  return first;
 }
 
 struct Shape {
@@ -213,7 +207,8 @@ Shape shape_of(const Mesh& mesh, ElementType type, Index first) {
 
 ElementBlocks::ElementBlocks(const Model& model) : part_count(model.mesh.part_names.size()) {
   const Threads threads(model.threads);
-  first_corner = first_corners_of(model.mesh);
+  require_stiffness(model.mesh);
+  first_corner = first_corners(model.mesh);
   sort_into_groups(model, threads);
   for (BlockGroup& group : groups) {
     if (group.plan.user) start_user_law(group, model.mesh);
@@ -226,7 +221,7 @@ ElementBlocks::ElementBlocks(const Model& model) : part_count(model.mesh.part_na
 void ElementBlocks::sort_into_groups(const Model& model, const Threads& threads) {
   const Mesh& mesh = model.mesh;
   std::vector<std::optional<PartPlan>> plans;
-  for (const std::string& name : mesh.part_names) plans.push_back(plan_part(model, name));
+  for (const Part* part : parts_in_order(model)) plans.push_back(plan_part(model, *part));
 
   const auto count = static_cast<std::size_t>(mesh.element_count());
   std::vector<std::uint8_t> prism(count), inverted(count);

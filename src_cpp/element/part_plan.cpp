@@ -5,7 +5,7 @@
 #include <limits>
 #include <variant>
 
-#include "cdfp/error.hpp"
+#include "model/lookup.hpp"
 
 namespace cdfp {
 
@@ -13,14 +13,6 @@ namespace {
 
 /// Modulus of rate-dependent parts in the hourglass stiffness: that at this rate, 1/s.
 constexpr double kRateOfHourglass = 100;
-
-template <class Items, class Name>
-const auto& named(const Items& items, const Name& name, const std::string& what) {
-  for (const auto& item : items) {
-    if (item.name == name) return item;
-  }
-  throw Error(Status::bad_argument, what + " '" + name + "' is not defined; add it to the model");
-}
 
 double lambda_of(double modulus, double nu) {
   return modulus * nu / ((1 + nu) * (1 - 2 * nu));
@@ -59,9 +51,8 @@ void set_elasticity(PartPlan& plan, double youngs_modulus, double poissons_ratio
   plan.constants.material.mu = mu_of(youngs_modulus, poissons_ratio);
 }
 
-std::optional<PartPlan> plan_part(const Model& model, const std::string& name) {
-  const Part& part = named(model.parts, name, "part");
-  const Material& material = named(model.materials, part.material, "material");
+std::optional<PartPlan> plan_part(const Model& model, const Part& part) {
+  const Material& material = cdfp::material(model, part.material);
   PartPlan plan;
   PartConstants& constants = plan.constants;
   double nu = 0, hourglass_modulus = 0;
@@ -100,7 +91,7 @@ std::optional<PartPlan> plan_part(const Model& model, const std::string& name) {
   plan.cracks = !part.cohesive_law.empty();
   constants.critical_norm_squared = std::numeric_limits<double>::infinity();
   if (plan.cracks) {
-    const CohesiveLaw& law = named(model.cohesive_laws, part.cohesive_law, "cohesive law");
+    const CohesiveLaw& law = cohesive_law(model, part.cohesive_law);
     plan.shear_ratio = law.shear_ratio;
     set_least_strength(plan, law.strength);
   }

@@ -34,6 +34,6 @@ void set_elasticity(PartPlan& plan, double youngs_modulus, double poissons_ratio
 void set_least_strength(PartPlan& plan, double strength);
 
 /// Nothing for a rigid part. Throws `Error(bad_argument)` for a name that the model does not define.
-std::optional<PartPlan> plan_part(const Model& model, const std::string& name);
+std::optional<PartPlan> plan_part(const Model& model, const Part& part);
 
 }  // namespace cdfp

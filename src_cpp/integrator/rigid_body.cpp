@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/scene.hpp"
+#include "model/lookup.hpp"
 
 namespace cdfp {
 

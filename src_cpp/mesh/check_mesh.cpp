@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <numeric>
 #include <set>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "core/numbered.hpp"
 #include "core/vec3.hpp"
 #include "mesh/element_shapes.hpp"
+#include "topology/templates.hpp"
 
 namespace cdfp {
 
@@ -50,13 +53,12 @@ std::vector<std::size_t> check_sizes(const Mesh& mesh) {
   if (elements == 0) refuse("the mesh has no elements; give at least one");
   std::vector<std::size_t> first(elements + 1, 0);
   for (std::size_t e = 0; e < elements; ++e) {
-    const ElementShape* shape = bulk_shape(mesh.types[e]);
-    if (!shape) {
+    if (!bulk_shape(mesh.types[e])) {
       refuse("element " + numbered(e) + " is of no bulk type (type " +
              std::to_string(static_cast<int>(mesh.types[e])) +
              "); cohesive elements are inserted by the simulation, leave them out of the mesh");
     }
-    first[e + 1] = first[e] + static_cast<std::size_t>(shape->corners);
+    first[e + 1] = first[e] + element_template(mesh.types[e]).corner_count;
   }
   if (first.back() != mesh.connectivity.size()) {
     refuse("connectivity holds " + number(mesh.connectivity.size()) + " node numbers, but the types of the " +
@@ -137,13 +139,12 @@ struct StoredFacet {
   FacetUse use;
 };
 
-StoredFacet stored_facet(const Index* corners, const FacetCorners& facet, FacetUse use) {
+StoredFacet stored_facet(const Index* corners, std::span<const std::uint8_t> facet, FacetUse use) {
   StoredFacet stored{{kNone, kNone, kNone, kNone}, {kNone, kNone, kNone, kNone}, use};
-  const std::size_t count = facet[3] == kNone ? 3 : 4;
-  for (std::size_t i = 0; i < count; ++i) stored.outward[i] = corners[facet[i]];
+  for (std::size_t i = 0; i < facet.size(); ++i) stored.outward[i] = corners[facet[i]];
   stored.sorted = stored.outward;
   std::sort(stored.sorted.begin(), stored.sorted.end());
-  const auto end = stored.outward.begin() + static_cast<std::ptrdiff_t>(count);
+  const auto end = stored.outward.begin() + static_cast<std::ptrdiff_t>(facet.size());
   std::rotate(stored.outward.begin(), std::min_element(stored.outward.begin(), end), end);
   return stored;
 }
@@ -161,10 +162,9 @@ void check_facets(const Mesh& mesh, const std::vector<std::size_t>& first) {
   std::vector<std::size_t> start(static_cast<std::size_t>(mesh.node_count()) + 1, 0);
   const auto for_each_facet = [&](auto&& visit) {
     for (std::size_t e = 0; e < mesh.types.size(); ++e) {
-      const ElementShape& shape = *bulk_shape(mesh.types[e]);
-      for (std::size_t f = 0; f < shape.facets.size(); ++f) {
-        visit(stored_facet(&mesh.connectivity[first[e]], shape.facets[f],
-                           {static_cast<Index>(e), static_cast<Index>(f)}));
+      const ElementTemplate& shape = element_template(mesh.types[e]);
+      for (Index f = 0; f < shape.facet_count; ++f) {
+        visit(stored_facet(&mesh.connectivity[first[e]], shape.facet(f), {static_cast<Index>(e), f}));
       }
     }
   };
@@ -222,11 +222,12 @@ void check_sets(const Mesh& mesh) {
                " does not exist (elements are numbered " + numbered(0) + " to " +
                numbered(mesh.element_count() - 1) + ")");
       }
-      const ElementShape& shape = *bulk_shape(mesh.types[static_cast<std::size_t>(use.element)]);
-      if (use.facet < 0 || static_cast<std::size_t>(use.facet) >= shape.facets.size()) {
-        refuse("facet set '" + set.name + "': element " + numbered(use.element) + " is a " + shape.name +
-               " and has no facet " + numbered(use.facet) + " (they are numbered " + numbered(0) + " to " +
-               numbered(shape.facets.size() - 1) + ")");
+      const ElementType type = mesh.types[static_cast<std::size_t>(use.element)];
+      const Index facets = element_template(type).facet_count;
+      if (use.facet < 0 || use.facet >= facets) {
+        refuse("facet set '" + set.name + "': element " + numbered(use.element) + " is a " +
+               bulk_shape(type)->name + " and has no facet " + numbered(use.facet) + " (they are numbered " +
+               numbered(0) + " to " + numbered(facets - 1) + ")");
       }
     }
   }

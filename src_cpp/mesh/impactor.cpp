@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/vec3.hpp"
-#include "mesh/element_shapes.hpp"
 #include "mesh/quad_mesh.hpp"
 
 namespace cdfp {

@@ -5,7 +5,7 @@
 
 #include "cdfp/error.hpp"
 #include "core/numbered.hpp"
-#include "scene/scene.hpp"
+#include "model/lookup.hpp"
 
 namespace cdfp {
 

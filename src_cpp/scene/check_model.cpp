@@ -7,6 +7,7 @@
 #include "cohesive/check_law.hpp"
 #include "core/numbered.hpp"
 #include "core/require.hpp"
+#include "model/lookup.hpp"
 #include "scene/scene.hpp"
 
 namespace cdfp {

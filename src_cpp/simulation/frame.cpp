@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "core/stress.hpp"
-#include "scene/scene.hpp"
+#include "model/lookup.hpp"
 #include "simulation/stages.hpp"
 
 namespace cdfp {

@@ -4,6 +4,7 @@
 
 #include "cdfp/error.hpp"
 #include "integrator/central_difference.hpp"
+#include "model/lookup.hpp"
 #include "scene/fingerprint.hpp"
 #include "scene/scene.hpp"
 #include "simulation/stages.hpp"

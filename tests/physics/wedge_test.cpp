@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <random>
 
 #include "cdfp/simulation.hpp"
+#include "cdfp/topology.hpp"
 #include "core/vec3.hpp"
-#include "mesh/element_shapes.hpp"
 #include "scenes.hpp"
 
 namespace cdfp {
@@ -123,24 +122,11 @@ TEST(Wedges, FreeBodySpinsAndRingsWithoutLoss) {
 
 /// Facets that no other element has.
 FacetSet outside(const Mesh& mesh) {
-  std::map<std::vector<Index>, std::vector<FacetUse>> uses;
-  std::size_t first = 0;
-  for (Index e = 0; e < mesh.element_count(); ++e) {
-    const ElementShape& shape = *bulk_shape(mesh.types[static_cast<std::size_t>(e)]);
-    for (std::size_t f = 0; f < shape.facets.size(); ++f) {
-      std::vector<Index> nodes;
-      for (const Index c : shape.facets[f]) {
-        if (c != kNone) nodes.push_back(mesh.connectivity[first + static_cast<std::size_t>(c)]);
-      }
-      std::sort(nodes.begin(), nodes.end());
-      uses[nodes].push_back({e, static_cast<Index>(f)});
-    }
-    first += static_cast<std::size_t>(shape.corners);
-  }
   FacetSet faces{"outside", {}};
-  for (const auto& [nodes, of] : uses) {
-    if (of.size() == 1) faces.facets.push_back(of[0]);
-  }
+  const Topology topology(mesh.node_count(), mesh.types, mesh.connectivity);
+  topology.for_each_facet([&](FacetUse use) {
+    if (topology.is_boundary(use)) faces.facets.push_back(use);
+  });
   return faces;
 }
 

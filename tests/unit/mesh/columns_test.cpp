@@ -9,9 +9,7 @@
 #include <queue>
 #include <vector>
 
-#include "mesh/element_shapes.hpp"
 #include "mesh/triangulation.hpp"
-#include "topology/templates.hpp"
 
 namespace cdfp {
 namespace {
@@ -197,23 +195,6 @@ TEST(Delaunay, NoPointLiesInACircle) {
       if (other == kNone) continue;
       const auto& o = t.neighbours[static_cast<std::size_t>(other)];
       EXPECT_NE(std::find(o.begin(), o.end(), static_cast<Index>(k)), o.end());
-    }
-  }
-}
-
-TEST(ElementShapes, AgreeWithTheTopologysTemplates) {
-  for (const ElementType type :
-       {ElementType::hexahedron, ElementType::tetrahedron, ElementType::wedge, ElementType::pyramid}) {
-    const ElementShape& shape = *bulk_shape(type);
-    const ElementTemplate& other = element_template(type);
-    EXPECT_EQ(shape.corners, other.corner_count);
-    ASSERT_EQ(shape.facets.size(), static_cast<std::size_t>(other.facet_count));
-    for (int f = 0; f < other.facet_count; ++f) {
-      for (std::size_t i = 0; i < 4; ++i) {
-        const bool exists = i < other.facet(f).size();
-        EXPECT_EQ(shape.facets[static_cast<std::size_t>(f)][i], exists ? other.facet(f)[i] : kNone)
-            << shape.name;
-      }
     }
   }
 }

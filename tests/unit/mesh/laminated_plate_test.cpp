@@ -11,7 +11,7 @@
 
 #include "cdfp/error.hpp"
 #include "core/vec3.hpp"
-#include "mesh/element_shapes.hpp"
+#include "topology/templates.hpp"
 
 namespace cdfp {
 namespace {
@@ -73,7 +73,7 @@ const NodeSet& nodes(const Mesh& mesh, const std::string& name) {
 
 std::array<Vec3, 4> facet_corners(const Mesh& mesh, FacetUse use) {
   const auto x = corners_of(mesh, use.element);
-  const FacetCorners& f = bulk_shape(ElementType::hexahedron)->facets[use.facet];
+  const auto f = element_template(ElementType::hexahedron).facet(use.facet);
   return {x[f[0]], x[f[1]], x[f[2]], x[f[3]]};
 }
 

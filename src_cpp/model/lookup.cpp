@@ -1,7 +1,9 @@
+#include "model/lookup.hpp"
+
 #include <variant>
 
 #include "cdfp/error.hpp"
-#include "scene/scene.hpp"
+#include "topology/templates.hpp"
 
 namespace cdfp {
 
@@ -72,8 +74,7 @@ bool is_rigid(const Model& model, const Part& part) {
 std::vector<Index> first_corners(const Mesh& mesh) {
   std::vector<Index> first(mesh.types.size() + 1, 0);
   for (std::size_t e = 0; e < mesh.types.size(); ++e) {
-    static constexpr Index corners[] = {8, 4, 6, 5};
-    first[e + 1] = first[e] + corners[static_cast<std::size_t>(mesh.types[e])];
+    first[e + 1] = first[e] + element_template(mesh.types[e]).corner_count;
   }
   return first;
 }
