@@ -30,15 +30,14 @@ class Threads {
   /// `body(begin, end)` over pieces of `grain` indices: the pieces are the same for any number of threads.
   template <class Body>
   void for_ranges(std::int64_t n, std::int64_t grain, Body&& body) const {
-    const std::int64_t pieces = (n + grain - 1) / grain;
-    for_each(pieces, [&](std::int64_t p) { body(p * grain, std::min(n, (p + 1) * grain)); });
+    for_each(pieces_of(n, grain), piece_of(n, grain, body));
   }
 
   /// The same, dealt out in turn: for work that is unlike from place to place.
   template <class Body>
   void deal_ranges(std::int64_t n, std::int64_t grain, Body&& body) const {
-    const std::int64_t pieces = (n + grain - 1) / grain;
-    const auto piece = [&](std::int64_t p) { body(p * grain, std::min(n, (p + 1) * grain)); };
+    const std::int64_t pieces = pieces_of(n, grain);
+    const auto piece = piece_of(n, grain, body);
     if (count_ == 1 || pieces < 2) {
       for (std::int64_t p = 0; p < pieces; ++p) piece(p);
       return;
@@ -48,6 +47,14 @@ class Threads {
   }
 
  private:
+  static std::int64_t pieces_of(std::int64_t n, std::int64_t grain) {
+    return (n + grain - 1) / grain;
+  }
+  template <class Body>
+  static auto piece_of(std::int64_t n, std::int64_t grain, Body& body) {
+    return [n, grain, &body](std::int64_t p) { body(p * grain, std::min(n, (p + 1) * grain)); };
+  }
+
   int count_;
 };
 

@@ -24,11 +24,6 @@ std::vector<double> in_unit(std::vector<double> values, const Unit& unit) {
   return values;
 }
 
-std::string spoken(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 void write_both(const std::filesystem::path& folder, const char* name, int height, const Drawing& drawing) {
   write_png(folder / (std::string(name) + ".png"), width, height, drawing);
   write_svg(folder / (std::string(name) + ".svg"), width, height, drawing);

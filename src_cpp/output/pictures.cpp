@@ -6,6 +6,7 @@
 
 #include "output/files.hpp"
 #include "output/history_pictures.hpp"
+#include "output/scale.hpp"
 
 namespace cdfp {
 namespace {
@@ -15,11 +16,6 @@ constexpr std::size_t shown_panels = 6, kept_panels = 24;
 Index part_number(const Frame& frame, const std::string& name) {
   const auto found = std::find(frame.part_names.begin(), frame.part_names.end(), name);
   return found == frame.part_names.end() ? kNone : static_cast<Index>(found - frame.part_names.begin());
-}
-
-std::string spoken(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
 }
 
 std::string file_name(std::string part) {

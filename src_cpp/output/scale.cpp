@@ -53,4 +53,9 @@ std::string short_label(double value) {
   return text;
 }
 
+std::string spoken(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
 }  // namespace cdfp

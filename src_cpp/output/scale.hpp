@@ -1,4 +1,4 @@
-/// Scales of axes: round ticks, units with prefixes, numbers as labels.
+/// Scales of axes: round ticks, units with prefixes, numbers and names as labels.
 #pragma once
 
 #include <string>
@@ -30,5 +30,8 @@ std::string label(double value, int decimals);
 
 /// Three significant digits, trailing zeros dropped.
 std::string short_label(double value);
+
+/// A name with blanks for its underscores.
+std::string spoken(std::string name);
 
 }  // namespace cdfp

@@ -59,6 +59,24 @@ inline void add_box(Mesh& mesh, const std::string& name, std::array<Index, 3> di
   mesh.facet_sets.push_back(faces);
 }
 
+/// Cuts each hexahedron of a box in six tetrahedra around its diagonal 0-6.
+inline void cut_into_tetrahedra(Mesh& mesh) {
+  static constexpr int kCut[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
+                                     {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+  std::vector<Index> corners, parts;
+  for (std::size_t e = 0; e < mesh.parts.size(); ++e) {
+    for (const auto& of_one : kCut) {
+      for (const int c : of_one) corners.push_back(mesh.connectivity[8 * e + static_cast<std::size_t>(c)]);
+      parts.push_back(mesh.parts[e]);
+    }
+  }
+  mesh.connectivity = std::move(corners);
+  mesh.parts = std::move(parts);
+  mesh.types.assign(mesh.parts.size(), ElementType::tetrahedron);
+  mesh.layers.clear();
+  mesh.facet_sets.clear();
+}
+
 /// Cuts the hexahedra of a box in two wedges each, upright along x (0) or z (2).
 inline void cut_into_wedges(Mesh& mesh, int upright) {
   static constexpr int kTurned[2][8] = {{0, 3, 7, 4, 1, 2, 6, 5}, {0, 1, 2, 3, 4, 5, 6, 7}};
