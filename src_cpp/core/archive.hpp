@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -31,13 +32,21 @@ class Archive {
     static_assert(std::is_trivially_copyable_v<T>);
     const std::uint64_t count = head(name, sizeof(T), 1);
     if (count != 1) differs(name);
-    move(&value, sizeof(T));
+    move(&value, 1);
+  }
+  template <class T>
+  void operator()(std::string_view name, std::optional<T>& value) {
+    bool given = value.has_value();
+    (*this)(name, given);
+    T content = value.value_or(T{});
+    (*this)(name, content);
+    value = given ? std::optional(content) : std::nullopt;
   }
   template <class T, class Allocator>
   void operator()(std::string_view name, std::vector<T, Allocator>& values) {
     static_assert(std::is_trivially_copyable_v<T>);
     values.resize(head(name, sizeof(T), values.size()));
-    move(values.data(), values.size() * sizeof(T));
+    move(values.data(), values.size());
   }
   void operator()(std::string_view name, std::string& text) {
     text.resize(head(name, 1, text.size()));
@@ -85,16 +94,35 @@ class Archive {
     if (saved_size != size || saved_count > (bytes_.size() - at_) / size) differs(name);
     return saved_count;
   }
-  void move(void* data, std::size_t count) {
+  template <class T>
+  void move(T* values, std::size_t count) {
     if (count == 0) return;
+    const std::size_t size = count * sizeof(T);
     if (reads_) {
-      std::memcpy(data, bytes_.data() + at_, count);
-      at_ += count;
+      std::memcpy(values, bytes_.data() + at_, size);
+      at_ += size;
+    } else if constexpr (std::is_class_v<T>) {
+      for (std::size_t i = 0; i < count; ++i) {
+        T value = values[i];
+        clear_padding(value);
+        append(&value, sizeof(T));
+      }
     } else {
-      append(data, count);
+      append(values, size);
     }
   }
-  void append(const void* data, std::size_t count) { bytes_.append(static_cast<const char*>(data), count); }
+  /// What lies between the members may be anything: equal states are to be equal bytes.
+  template <class T>
+  static void clear_padding([[maybe_unused]] T& value) {
+#if defined(__has_builtin)
+#if __has_builtin(__builtin_clear_padding)
+    __builtin_clear_padding(&value);
+#endif
+#endif
+  }
+  void append(const void* data, std::size_t count) {
+    bytes_.append(static_cast<const char*>(data), count);
+  }
   void take(void* data, std::size_t count, std::string_view name) {
     if (count > bytes_.size() - at_) differs(name);
     std::memcpy(data, bytes_.data() + at_, count);
