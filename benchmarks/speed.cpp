@@ -9,12 +9,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <numeric>
 #include <random>
 #include <span>
 #include <string>
@@ -282,23 +284,52 @@ double advance_seconds(Simulation& simulation, std::int64_t steps) {
   return simulation.summary().wall_s - before;
 }
 
+constexpr int kSlices = 24, kRounds = 4;
+
+/// Of all rounds, for each number of threads: the one that took least, and the least time of each slice.
+struct Rounds {
+  std::vector<Summary> fastest;
+  std::vector<std::array<double, kSlices>> slices;  ///< s
+};
+
+/// What else the machine does only ever adds. Side by side in slices, so that it adds to all alike.
+Rounds run_impact_side_by_side() {
+  const std::vector<int> counts = thread_counts();
+  Rounds rounds;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<Simulation> simulations;
+    for (const int threads : counts) {
+      Model model = impact_case(67);
+      model.threads = threads;
+      simulations.emplace_back(std::move(model));
+    }
+    if (round == 0) rounds.slices.resize(counts.size());
+    for (int slice = 0; slice < kSlices; ++slice) {
+      for (std::size_t t = 0; t < counts.size(); ++t) {
+        const double seconds = advance_seconds(simulations[t], 50);
+        double& least = rounds.slices[t][slice];
+        if (round == 0 || seconds < least) least = seconds;
+      }
+    }
+    for (std::size_t t = 0; t < counts.size(); ++t) {
+      Summary summary = simulations[t].summary();
+      if (round == 0) {
+        rounds.fastest.push_back(std::move(summary));
+      } else if (summary.wall_s < rounds.fastest[t].wall_s) {
+        rounds.fastest[t] = std::move(summary);
+      }
+    }
+  }
+  return rounds;
+}
+
 void measure_stages(Results& results) {
-  std::printf("\nThe paper's case, 1,200 steps (72 us: impact and most cracks); ns an element and step.\n\n");
-  std::vector<Simulation> simulations;
-  for (const int threads : thread_counts()) {
-    Model model = impact_case(67);
-    model.threads = threads;
-    simulations.emplace_back(std::move(model));
-  }
-  // Side by side in slices: what else the machine does for a while falls on both of a slice.
-  std::vector<double> efficiencies;
-  for (int slice = 0; slice < 24; ++slice) {
-    std::vector<double> seconds;
-    for (Simulation& simulation : simulations) seconds.push_back(advance_seconds(simulation, 50));
-    if (seconds.size() == 2) efficiencies.push_back(seconds[0] / seconds[1] / 2);
-  }
-  std::vector<Summary> summaries;
-  for (const Simulation& simulation : simulations) summaries.push_back(simulation.summary());
+  std::printf(
+      "\nThe paper's case, 1,200 steps (72 us: impact and most cracks), fastest of %d rounds;\n"
+      "ns an element and step.\n\n",
+      kRounds);
+  const Rounds rounds = run_impact_side_by_side();
+  const std::vector<Summary>& summaries = rounds.fastest;
   const double updates = double(summaries[0].elements) * 1200;
   std::printf("%-18s", "stage");
   for (const Summary& s : summaries) std::printf(" %6d threads %7s", s.threads, "share");
@@ -329,11 +360,14 @@ void measure_stages(Results& results) {
     std::printf("10,000 steps at this pace: %.1f s on %d threads\n", whole, s.threads);
     if (s.threads == 2) results.want(whole <= 40, "the paper's case above 40 s");
   }
-  if (!efficiencies.empty()) {
-    std::sort(efficiencies.begin(), efficiencies.end());
-    const double efficiency = efficiencies[efficiencies.size() / 2];
-    std::printf("efficiency on two threads: %.0f %% (median of slices of 50 steps; %.0f to %.0f %%)\n",
-                100 * efficiency, 100 * efficiencies.front(), 100 * efficiencies.back());
+  if (summaries.size() == 2) {
+    std::array<double, 2> seconds{};
+    for (std::size_t t = 0; t < 2; ++t)
+      seconds[t] = std::accumulate(rounds.slices[t].begin(), rounds.slices[t].end(), 0.0);
+    const double efficiency = seconds[0] / seconds[1] / 2;
+    std::printf(
+        "efficiency on two threads: %.0f %% (each slice of 50 steps in the least time of %d rounds)\n",
+        100 * efficiency, kRounds);
     results.add("case efficiency", summaries[0].elements, 2, 100 * efficiency, "%");
     results.want(efficiency >= 0.85, "two threads below 85 % efficiency");
   }
