@@ -6,7 +6,6 @@
 // another. Processor seconds of one thread, the least of a few repetitions. New bricks that are scattered
 // over the scene cost more the larger it is, as their neighbours are in no cache; their work is the same.
 // The regular search's time a segment rises by what the caches save at 1e4 segments, and then is constant.
-#include <time.h>
 
 #include <algorithm>
 #include <array>
@@ -19,6 +18,7 @@
 #include <vector>
 
 #include "cdfp/contact.hpp"
+#include "support/stop_watch.hpp"
 
 #if __has_include(<CGAL/box_intersection_d.h>)
 #define CDFP_WITH_CGAL
@@ -37,23 +37,6 @@ using namespace cdfp;
 
 constexpr double kSide = 1e-3, kGap = 0.1e-3;
 constexpr std::size_t kNewBricks = 20;
-
-double seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-template <class Work>
-double least_seconds(int repetitions, Work&& work) {
-  double least = 1e30;
-  for (int i = 0; i < repetitions; ++i) {
-    const double begin = seconds();
-    work();
-    least = std::min(least, seconds() - begin);
-  }
-  return least;
-}
 
 class Rubble {
  public:
@@ -123,18 +106,19 @@ struct Row {
     Rubble scene(size);
     segments = scene.segment_count();
     ContactSearch search(1.0, 0.4);
-    const double least = least_seconds(size > 5e5 ? 2 : 5, [&] { search.regular(scene.view()); });
+    const double least = bench::least_seconds(size > 5e5 ? 2 : 5, [&] { search.regular(scene.view()); });
     time = std::min(time, 1e9 * least / segments);
     pairs = static_cast<double>(search.node_segments().size()) / segments;
     bytes = static_cast<double>(search.memory()) / segments;
     std::mt19937 random(1);
     for (std::size_t i = 0; i < 15; ++i) {
       for (std::size_t b = 0; b < kNewBricks; ++b) scene.add_beside(kNewBricks * i + b);
-      side_by_side = std::min(side_by_side, 1e6 * least_seconds(1, [&] { search.adaptive(scene.view()); }));
+      side_by_side =
+          std::min(side_by_side, 1e6 * bench::least_seconds(1, [&] { search.adaptive(scene.view()); }));
     }
     for (std::size_t i = 0; i < 15; ++i) {
       for (std::size_t b = 0; b < kNewBricks; ++b) scene.add_beside(random());
-      scattered = std::min(scattered, 1e6 * least_seconds(1, [&] { search.adaptive(scene.view()); }));
+      scattered = std::min(scattered, 1e6 * bench::least_seconds(1, [&] { search.adaptive(scene.view()); }));
     }
   }
 };
@@ -157,7 +141,7 @@ std::pair<std::size_t, double> by_cgal(const Rubble& scene, double buffer) {
     nodes.emplace_back(CGAL::Bbox_3(x[0], x[1], x[2], x[0], x[1], x[2]), &ids[scene.segment_count() + n]);
   }
   std::vector<std::array<Index, 2>> pairs;
-  const double time = least_seconds(2, [&] {
+  const double time = bench::least_seconds(2, [&] {
     pairs.clear();
     CGAL::box_intersection_d(segments.begin(), segments.end(), nodes.begin(), nodes.end(),
                              [&](const Box& segment, const Box& node) {
@@ -185,7 +169,7 @@ std::pair<std::size_t, double> by_boost(const Rubble& scene, double buffer) {
     boxes.emplace_back(Point(box[0][0], box[0][1], box[0][2]), Point(box[1][0], box[1][1], box[1][2]));
   }
   std::vector<std::array<Index, 2>> pairs;
-  const double time = least_seconds(2, [&] {
+  const double time = bench::least_seconds(2, [&] {
     pairs.clear();
     const bg::index::rtree<Entry, bg::index::rstar<16>> tree(nodes.begin(), nodes.end());
     for (Index m = 0; m < scene.segment_count(); ++m) {
@@ -233,7 +217,7 @@ int main(int argc, char** argv) {
 
   const Rubble scene(std::min(largest, 1e5));
   ContactSearch search(1.0, 0.4, false);
-  const double ours = least_seconds(9, [&] { search.regular(scene.view()); });
+  const double ours = bench::least_seconds(9, [&] { search.regular(scene.view()); });
   const double per_segment = 1e9 / scene.segment_count();
   std::printf("\n%d segments, the same boxes:\n  cdfp regular search         %8.1f ns/segment\n",
               scene.segment_count(), ours * per_segment);

@@ -1,7 +1,6 @@
 // The adaptive search test of Chen, Zang, Xu 2015, section 6.1: a plate of 60 x 50 x 1 bricks, cohesive
 // elements inserted at random facets; after every few new segments the node-face pairs are updated, either by
 // a regular search each time or by the adaptive one. Processor seconds of one thread.
-#include <time.h>
 
 #include <algorithm>
 #include <array>
@@ -15,16 +14,11 @@
 
 #include "cdfp/contact.hpp"
 #include "cdfp/topology.hpp"
+#include "support/stop_watch.hpp"
 
 namespace {
 
 using namespace cdfp;
-
-double seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 struct Plate {
   std::vector<double> position;
@@ -130,13 +124,13 @@ void run(int loops, int insertions, bool adaptive, double cell_factor, Cost& cos
   cost.loops.resize(loops, INFINITY);
   for (int loop = 0; loop < loops; ++loop) {
     for (int i = 0; i < insertions; ++i) scene.insert();
-    const double begin = seconds();
+    const double begin = bench::processor_seconds();
     if (adaptive) {
       search.adaptive(scene.view(), scene.renamed());
     } else {
       search.regular(scene.view());
     }
-    cost.loops[loop] = std::min(cost.loops[loop], seconds() - begin);
+    cost.loops[loop] = std::min(cost.loops[loop], bench::processor_seconds() - begin);
     scene.clear_renamed();
   }
   cost.pairs = search.node_segments().size();

@@ -1,12 +1,12 @@
 // Cracks against theory and published figures. Each case prints its figure beside what is wanted and leaves a
 // picture in out/fracture/.
 //   bench_fracture [CASE ...]
-#include <chrono>
 #include <cstdio>
 #include <string>
 
 #include "fracture/cases.hpp"
 #include "fracture/report.hpp"
+#include "support/stop_watch.hpp"
 
 namespace {
 
@@ -31,11 +31,10 @@ int main(int count, char** words) {
     bool chosen = count == 1;
     for (int i = 1; i < count; ++i) chosen |= std::string(words[i]) == c.name;
     if (!chosen) continue;
-    const auto begin = std::chrono::steady_clock::now();
+    const auto begin = bench::Clock::now();
     std::printf("%s\n", c.title);
     c.run();
-    std::printf("  (%.1f s)\n",
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    std::printf("  (%.1f s)\n", bench::seconds_since(begin));
   }
   const std::string& shortfall = bench::shortfall();
   std::printf("fracture: %s%s\n", shortfall.empty() ? "pass" : "short:", shortfall.c_str());

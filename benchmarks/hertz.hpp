@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "cdfp/simulation.hpp"
+#include "support/stop_watch.hpp"
 
 namespace hertz {
 
@@ -154,7 +154,7 @@ struct Result {
   long long steps = 0;
 };
 inline Result impact(double speed, double elements_a_radius) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = bench::Clock::now();
   // A quarter of the ball's mass, from a first look at what the mesh holds.
   const Model plain = make_model(speed, elements_a_radius, 1);
   Simulation s(make_model(speed, elements_a_radius, ball_mass() / 4 / mass_of_last_part(plain)));
@@ -179,7 +179,7 @@ inline Result impact(double speed, double elements_a_radius) {
   result.balance = summary.energy_balance_min;
   result.elements = summary.elements;
   result.steps = summary.steps;
-  result.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.wall = bench::seconds_since(start);
   return result;
 }
 

@@ -7,7 +7,6 @@
 // size costs the first time, as the kernel hands out its pages, stands by itself ("pages", ns/element).
 #include <malloc.h>
 #include <sys/mman.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +19,7 @@
 #include <vector>
 
 #include "cdfp/topology.hpp"
+#include "support/stop_watch.hpp"
 
 #if __has_include(<CGAL/Linear_cell_complex_for_combinatorial_map.h>)
 #define CDFP_WITH_CGAL
@@ -33,22 +33,10 @@ namespace {
 
 using namespace cdfp;
 
-double seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 /// The least processor time of a few repetitions, in ns for each of `count`.
 template <class Work>
 double ns_each(double count, Work&& work, int repetitions = 9) {
-  double least = 1e30;
-  for (int i = 0; i < repetitions; ++i) {
-    const double begin = seconds();
-    work();
-    least = std::min(least, seconds() - begin);
-  }
-  return 1e9 * least / count;
+  return 1e9 * bench::least_seconds(repetitions, work) / count;
 }
 
 volatile std::int64_t sink = 0;  // keeps the compiler from dropping unused answers
@@ -202,9 +190,10 @@ std::array<double, 3> cut_all(const Grid& grid, bool random) {
     for (std::size_t t = 0; t < 3; ++t) {
       const std::size_t begin = facets.size() * t / 3;
       const std::size_t end = facets.size() * (t + 1) / 3;
-      const double start = seconds();
+      const double start = bench::processor_seconds();
       for (std::size_t i = begin; i < end; ++i) topology.insert_cohesive(facets[i], report);
-      least[t] = std::min(least[t], 1e9 * (seconds() - start) / static_cast<double>(end - begin));
+      least[t] =
+          std::min(least[t], 1e9 * (bench::processor_seconds() - start) / static_cast<double>(end - begin));
     }
     if (topology.node_count() != 8 * grid.cells()) std::printf("cutting everything left shared nodes\n");
   }

@@ -3,9 +3,10 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 #include <vector>
+
+#include "support/stop_watch.hpp"
 
 namespace bench {
 
@@ -22,8 +23,7 @@ typedef double Vector __attribute__((vector_size(8 * kWidth)));
 
 /// Seconds of the slowest thread, the least of some runs.
 template <class Work>
-double least_seconds(int threads, Work&& work) {
-  using Clock = std::chrono::steady_clock;
+double seconds_of_slowest(int threads, Work&& work) {
   double least = 1e30;
   for (int run = 0; run < 50; ++run) {
     double slowest = 0;
@@ -33,7 +33,7 @@ double least_seconds(int threads, Work&& work) {
 #pragma omp barrier
       const auto begin = Clock::now();
       work(thread);
-      slowest = std::chrono::duration<double>(Clock::now() - begin).count();
+      slowest = seconds_since(begin);
     }
     least = std::min(least, slowest);
   }
@@ -78,12 +78,12 @@ Roofline measure_roofline(int threads) {
   std::vector<double> kept(static_cast<std::size_t>(threads) * 8);  // so that no work is for nothing
   constexpr long kRounds = 4'000'000;
   machine.flops = threads * 2.0 * 12 * kWidth * kRounds /
-                  least_seconds(threads, [&](int t) { kept[8 * t] = multiply_add(kRounds); });
+                  seconds_of_slowest(threads, [&](int t) { kept[8 * t] = multiply_add(kRounds); });
 
   constexpr std::size_t kInCache = 32 * 1024;
   std::vector<std::vector<double>> small(threads, std::vector<double>(kInCache, 1.0));
   constexpr int kPasses = 400;
-  machine.l2 = 8.0 * threads * kInCache * kPasses / least_seconds(threads, [&](int t) {
+  machine.l2 = 8.0 * threads * kInCache * kPasses / seconds_of_slowest(threads, [&](int t) {
                  for (int pass = 0; pass < kPasses; ++pass) {
                    kept[8 * t] += add_up(small[t].data(), kInCache);
                    asm volatile("" ::: "memory");
@@ -93,7 +93,7 @@ Roofline measure_roofline(int threads) {
   const std::size_t far = 32 * 1024 * 1024 / threads;
   std::vector<std::vector<double>> large(threads, std::vector<double>(far, 1.0));
   machine.memory = 8.0 * threads * static_cast<double>(far) /
-                   least_seconds(threads, [&](int t) { kept[8 * t] += add_up(large[t].data(), far); });
+                   seconds_of_slowest(threads, [&](int t) { kept[8 * t] += add_up(large[t].data(), far); });
   return machine;
 }
 
