@@ -6,7 +6,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <exception>
+
+#include "core/shares.hpp"
 
 namespace cdfp {
 
@@ -33,7 +34,7 @@ class Threads {
     for_each(pieces_of(n, grain), piece_of(n, grain, body));
   }
 
-  /// The same, dealt out in turn: for work that is unlike from place to place.
+  /// The same, where threads that are done help the others: for work that is unlike from place to place.
   template <class Body>
   void deal_ranges(std::int64_t n, std::int64_t grain, Body&& body) const {
     const std::int64_t pieces = pieces_of(n, grain);
@@ -42,8 +43,13 @@ class Threads {
       for (std::int64_t p = 0; p < pieces; ++p) piece(p);
       return;
     }
-#pragma omp parallel for schedule(static, 1) num_threads(count_)
-    for (std::int64_t p = 0; p < pieces; ++p) piece(p);
+    Shares shares(count_);
+    shares.refill(pieces);
+#pragma omp parallel num_threads(count_)
+    {
+      const int thread = omp_get_thread_num();
+      for (std::int64_t p = shares.next(thread); p != Shares::kNothing; p = shares.next(thread)) piece(p);
+    }
   }
 
  private:

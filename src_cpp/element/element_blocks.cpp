@@ -16,6 +16,7 @@
 #include "element/wedge.hpp"
 #include "element/wedge_geometry.hpp"
 #include "model/lookup.hpp"
+#include "state/slabs.hpp"
 
 namespace cdfp {
 
@@ -215,7 +216,12 @@ ElementBlocks::ElementBlocks(const Model& model) : part_count(model.mesh.part_na
   }
   for (BlockGroup& group : groups) fill(group, model.mesh, threads);
   tighten_step_terms(model.mesh);
-  colour_tasks(model.mesh.node_count());
+  colour_tasks(model.mesh);
+}
+
+/// Rates take four times as long: tasks are to be of one length.
+std::size_t ElementBlocks::blocks_a_task(const PartPlan& plan) const {
+  return plan.rate_dependent ? std::max<std::size_t>(1, blocks_a_task_ / 4) : blocks_a_task_;
 }
 
 void ElementBlocks::sort_into_groups(const Model& model, const Threads& threads) {
@@ -253,12 +259,13 @@ void ElementBlocks::sort_into_groups(const Model& model, const Threads& threads)
   slots_.assign(count, kNone);
   for (std::size_t m = 0; m < members.size(); ++m) {
     if (members[m].empty()) continue;
-    order_in_runs(members[m], blocks_a_task_ * kBlock);
-    for (std::size_t first = 0; first < members[m].size(); first += blocks_a_task_ * kBlock) {
-      const std::span<Centroid> rest = std::span(members[m]).subspan(first);
-      order_in_runs(rest.first(std::min(rest.size(), blocks_a_task_ * kBlock)), kBlock);
-    }
     const Index part = static_cast<Index>(m / kBlockKinds);
+    const std::size_t run = blocks_a_task(*plans[part]) * kBlock;
+    order_in_runs(members[m], run);
+    for (std::size_t first = 0; first < members[m].size(); first += run) {
+      const std::span<Centroid> rest = std::span(members[m]).subspan(first);
+      order_in_runs(rest.first(std::min(rest.size(), run)), kBlock);
+    }
     BlockGroup group{static_cast<BlockKind>(m % kBlockKinds),
                      &kernels.kinds[m % kBlockKinds],
                      part,
@@ -400,14 +407,15 @@ void ElementBlocks::tighten_step_terms(const Mesh& mesh) {
   }
 }
 
-void ElementBlocks::colour_tasks(Index node_count) {
+void ElementBlocks::colour_tasks(const Mesh& mesh) {
   std::vector<std::size_t> first{0};
   std::vector<Index> nodes;
   std::vector<Task> tasks;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const BlockGroup& group = groups[g];
-    for (std::size_t block = 0; block < group.blocks(); block += blocks_a_task_) {
-      const std::size_t last = std::min(block + blocks_a_task_, group.blocks());
+    const std::size_t blocks = blocks_a_task(group.plan);
+    for (std::size_t block = 0; block < group.blocks(); block += blocks) {
+      const std::size_t last = std::min(block + blocks, group.blocks());
       for (std::size_t slot = block * kBlock; slot < std::min(last * kBlock, group.elements.size()); ++slot) {
         const std::int32_t* offsets = group.corner_offsets(slot);
         for (int corner = 0; corner < group.corners(); ++corner)
@@ -418,7 +426,16 @@ void ElementBlocks::colour_tasks(Index node_count) {
           {static_cast<std::int32_t>(g), static_cast<std::int32_t>(block), static_cast<std::int32_t>(last)});
     }
   }
-  for (const std::vector<std::int32_t>& of_colour : colour(first, nodes, node_count)) {
+  // Threads share nodes out in slabs, too.
+  const int axis = slab_axis(extents_of_pieces(mesh.coordinates));
+  std::vector<double> place(tasks.size(), 0);
+  for (std::size_t t = 0; t < tasks.size(); ++t) {
+    for (std::size_t i = first[t]; i < first[t + 1]; ++i) place[t] += mesh.coordinates[3 * nodes[i] + axis];
+    place[t] /= static_cast<double>(first[t + 1] - first[t]);
+  }
+  for (std::vector<std::int32_t>& of_colour : colour(first, nodes, mesh.node_count())) {
+    std::stable_sort(of_colour.begin(), of_colour.end(),
+                     [&](std::int32_t a, std::int32_t b) { return place[a] < place[b]; });
     std::vector<Task>& list = colours.emplace_back();
     for (const std::int32_t task : of_colour) list.push_back(tasks[task]);
   }

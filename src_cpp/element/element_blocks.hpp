@@ -84,10 +84,11 @@ struct ElementBlocks {
   void start_user_law(BlockGroup& group, const Mesh& mesh);
   void fill(BlockGroup& group, const Mesh& mesh, const Threads& threads) const;
   void tighten_step_terms(const Mesh& mesh);
-  void colour_tasks(Index node_count);
+  void colour_tasks(const Mesh& mesh);
+  std::size_t blocks_a_task(const PartPlan& plan) const;
 
   std::vector<Index> slots_;  ///< of each element, counted through all blocks of all groups; kNone: rigid
-  std::size_t blocks_a_task_ = 1;
+  std::size_t blocks_a_task_ = 1;  ///< where nothing depends on rates
 };
 
 }  // namespace cdfp

@@ -1,5 +1,7 @@
 #include "element/element_force.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -7,6 +9,7 @@
 #include <limits>
 
 #include "core/number_set.hpp"
+#include "core/shares.hpp"
 #include "element/element_blocks.hpp"
 #include "element/one_point.hpp"
 #include "element/single_element.hpp"
@@ -189,12 +192,15 @@ void ElementForce::add_force(std::span<const double> position, std::span<double>
       for (const Blocks::Task& task : tasks) b.run(task, position, force, reference);
     }
   } else {
+    std::vector<Shares> shares;
+    for (const std::vector<Blocks::Task>& tasks : b.colours)
+      shares.emplace_back(threads.count()).refill(std::ssize(tasks));
 #pragma omp parallel num_threads(threads.count())
-    for (const std::vector<Blocks::Task>& tasks : b.colours) {
-      const auto count = static_cast<std::int64_t>(tasks.size());
-#pragma omp for schedule(dynamic)
-      for (std::int64_t i = 0; i < count; ++i)
-        b.run(tasks[static_cast<std::size_t>(i)], position, force, reference);
+    for (std::size_t c = 0; c < b.colours.size(); ++c) {
+      const int thread = omp_get_thread_num();
+      for (std::int64_t i = shares[c].next(thread); i != Shares::kNothing; i = shares[c].next(thread))
+        b.run(b.colours[c][static_cast<std::size_t>(i)], position, force, reference);
+#pragma omp barrier
     }
   }
   if (!b.critical_set.is_void()) b.list_critical();

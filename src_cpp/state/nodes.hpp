@@ -11,6 +11,7 @@
 #include "core/archive.hpp"
 #include "core/growth.hpp"
 #include "core/vec3.hpp"
+#include "state/slabs.hpp"
 
 namespace cdfp {
 
@@ -22,6 +23,7 @@ struct Nodes {
   std::vector<double> mass;           ///< (n) lumped, kg
   std::vector<std::uint8_t> fixed;    ///< (n) bit d: direction d follows a constraint, not its force
   std::vector<Index> body;            ///< (n) rigid body that carries the node, or kNone
+  NodePieces pieces;
 
   explicit Nodes(std::span<const double> coordinates)
       : reference(coordinates),
@@ -30,7 +32,8 @@ struct Nodes {
         force(reference.size(), 0.0),
         mass(reference.size() / 3, 0.0),
         fixed(mass.size(), 0),
-        body(mass.size(), kNone) {}
+        body(mass.size(), kNone),
+        pieces(coordinates) {}
 
   Index count() const { return static_cast<Index>(mass.size()); }
   Vec3 x(Index n) const { return Vec3::load(&position[3 * static_cast<std::size_t>(n)]); }

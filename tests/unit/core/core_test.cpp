@@ -11,8 +11,10 @@
 #include "core/archive.hpp"
 #include "core/numbered.hpp"
 #include "core/parallel.hpp"
+#include "core/shares.hpp"
 #include "core/stress.hpp"
 #include "core/vec3.hpp"
+#include "state/slabs.hpp"
 
 namespace cdfp {
 namespace {
@@ -51,6 +53,65 @@ TEST(Threads, EveryIndexOnce) {
       for (std::int64_t i = begin; i < end; ++i) ++seen[i];
     });
     for (const int s : seen) ASSERT_EQ(s, 1);
+  }
+}
+
+TEST(Threads, UnevenWorkIsDoneOnce) {
+  for (const int count : {1, 2, 3, 8}) {
+    const Threads threads(count);
+    std::vector<int> seen(1001, 0);
+    std::vector<double> sums(seen.size());
+    threads.deal_ranges(std::ssize(seen), 3, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i) {
+        ++seen[i];
+        for (int k = 0; k < (i < 100 ? 20000 : 10); ++k) sums[i] += std::sqrt(k);
+      }
+    });
+    for (const int s : seen) ASSERT_EQ(s, 1);
+  }
+}
+
+TEST(Shares, AThreadGoesThroughItsOwnThenTakesFromTheEndsOfOthers) {
+  Shares shares(2);
+  shares.refill(5);
+  std::vector<std::int64_t> order;
+  for (int k = 0; k < 3; ++k) order.push_back(shares.next(1));
+  EXPECT_EQ(order, (std::vector<std::int64_t>{2, 3, 4}));
+  EXPECT_EQ(shares.next(1), 1);
+  EXPECT_EQ(shares.next(0), 0);
+  EXPECT_EQ(shares.next(0), Shares::kNothing);
+  EXPECT_EQ(shares.next(1), Shares::kNothing);
+  shares.refill(0);
+  EXPECT_EQ(shares.next(0), Shares::kNothing);
+}
+
+/// 30 x 400 x 3 nodes, the layers one after the other.
+std::vector<double> layers_of_nodes() {
+  std::vector<double> x;
+  for (int k = 0; k < 3; ++k) {
+    for (int j = 0; j < 400; ++j) {
+      for (int i = 0; i < 30; ++i) x.insert(x.end(), {20.0 * (30 - i), 1.0 * j, 0.1 * k});
+    }
+  }
+  return x;
+}
+
+TEST(Slabs, RunAcrossTheLongestAxisAlongWhichNumbersStayTogether) {
+  EXPECT_EQ(slab_axis(extents_of_pieces(layers_of_nodes())), 1);
+  EXPECT_EQ(slab_axis(extents_of_pieces({})), 0);
+}
+
+TEST(Slabs, EveryNodeOnceAndNewOnesToo) {
+  const std::vector<double> x = layers_of_nodes();
+  const NodePieces pieces(x);
+  for (const int count : {1, 2, 3}) {
+    for (const std::size_t nodes : {x.size() / 3, x.size() / 3 + 2000}) {
+      std::vector<int> seen(nodes, 0);
+      pieces.for_each(std::ssize(seen), Threads(count), [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t n = begin; n < end; ++n) ++seen[n];
+      });
+      for (const int s : seen) ASSERT_EQ(s, 1);
+    }
   }
 }
 
