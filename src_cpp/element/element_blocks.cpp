@@ -219,11 +219,6 @@ ElementBlocks::ElementBlocks(const Model& model) : part_count(model.mesh.part_na
   colour_tasks(model.mesh);
 }
 
-/// Rates take four times as long: tasks are to be of one length.
-std::size_t ElementBlocks::blocks_a_task(const PartPlan& plan) const {
-  return plan.rate_dependent ? std::max<std::size_t>(1, blocks_a_task_ / 4) : blocks_a_task_;
-}
-
 void ElementBlocks::sort_into_groups(const Model& model, const Threads& threads) {
   const Mesh& mesh = model.mesh;
   std::vector<std::optional<PartPlan>> plans;
@@ -260,7 +255,7 @@ void ElementBlocks::sort_into_groups(const Model& model, const Threads& threads)
   for (std::size_t m = 0; m < members.size(); ++m) {
     if (members[m].empty()) continue;
     const Index part = static_cast<Index>(m / kBlockKinds);
-    const std::size_t run = blocks_a_task(*plans[part]) * kBlock;
+    const std::size_t run = blocks_a_task_ * kBlock;
     order_in_runs(members[m], run);
     for (std::size_t first = 0; first < members[m].size(); first += run) {
       const std::span<Centroid> rest = std::span(members[m]).subspan(first);
@@ -413,9 +408,8 @@ void ElementBlocks::colour_tasks(const Mesh& mesh) {
   std::vector<Task> tasks;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const BlockGroup& group = groups[g];
-    const std::size_t blocks = blocks_a_task(group.plan);
-    for (std::size_t block = 0; block < group.blocks(); block += blocks) {
-      const std::size_t last = std::min(block + blocks, group.blocks());
+    for (std::size_t block = 0; block < group.blocks(); block += blocks_a_task_) {
+      const std::size_t last = std::min(block + blocks_a_task_, group.blocks());
       for (std::size_t slot = block * kBlock; slot < std::min(last * kBlock, group.elements.size()); ++slot) {
         const std::int32_t* offsets = group.corner_offsets(slot);
         for (int corner = 0; corner < group.corners(); ++corner)

@@ -85,10 +85,9 @@ struct ElementBlocks {
   void fill(BlockGroup& group, const Mesh& mesh, const Threads& threads) const;
   void tighten_step_terms(const Mesh& mesh);
   void colour_tasks(const Mesh& mesh);
-  std::size_t blocks_a_task(const PartPlan& plan) const;
 
   std::vector<Index> slots_;  ///< of each element, counted through all blocks of all groups; kNone: rigid
-  std::size_t blocks_a_task_ = 1;  ///< where nothing depends on rates
+  std::size_t blocks_a_task_ = 1;
 };
 
 }  // namespace cdfp
