@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "cdfp/error.hpp"
 #include "core/vec3.hpp"
 #include "model/lookup.hpp"
 

@@ -59,42 +59,36 @@ inline void add_box(Mesh& mesh, const std::string& name, std::array<Index, 3> di
   mesh.facet_sets.push_back(faces);
 }
 
-/// Cuts each hexahedron of a box in six tetrahedra around its diagonal 0-6.
-inline void cut_into_tetrahedra(Mesh& mesh) {
-  static constexpr int kCut[6][4] = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6},
-                                     {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+/// Cuts each hexahedron of a box in elements with these of its corners.
+template <std::size_t kPieces, std::size_t kCorners>
+void cut(Mesh& mesh, ElementType type, const int (&pieces)[kPieces][kCorners]) {
   std::vector<Index> corners, parts;
   for (std::size_t e = 0; e < mesh.parts.size(); ++e) {
-    for (const auto& of_one : kCut) {
-      for (const int c : of_one) corners.push_back(mesh.connectivity[8 * e + static_cast<std::size_t>(c)]);
+    for (const auto& piece : pieces) {
+      for (const int c : piece) corners.push_back(mesh.connectivity[8 * e + static_cast<std::size_t>(c)]);
       parts.push_back(mesh.parts[e]);
     }
   }
   mesh.connectivity = std::move(corners);
   mesh.parts = std::move(parts);
-  mesh.types.assign(mesh.parts.size(), ElementType::tetrahedron);
+  mesh.types.assign(mesh.parts.size(), type);
   mesh.layers.clear();
   mesh.facet_sets.clear();
 }
 
-/// Cuts the hexahedra of a box in two wedges each, upright along x (0) or z (2).
+/// Six around the diagonal 0-6.
+inline void cut_into_tetrahedra(Mesh& mesh) {
+  cut(mesh, ElementType::tetrahedron,
+      {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}});
+}
+
+/// Two, upright along x (0) or z (2).
 inline void cut_into_wedges(Mesh& mesh, int upright) {
-  static constexpr int kTurned[2][8] = {{0, 3, 7, 4, 1, 2, 6, 5}, {0, 1, 2, 3, 4, 5, 6, 7}};
-  static constexpr int kCut[2][6] = {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
-  std::vector<Index> corners, parts;
-  for (std::size_t e = 0; e < mesh.parts.size(); ++e) {
-    for (const auto& wedge : kCut) {
-      for (const int c : wedge) {
-        corners.push_back(mesh.connectivity[8 * e + static_cast<std::size_t>(kTurned[upright / 2][c])]);
-      }
-      parts.push_back(mesh.parts[e]);
-    }
+  if (upright == 0) {
+    cut(mesh, ElementType::wedge, {{0, 3, 7, 1, 2, 6}, {0, 7, 4, 1, 6, 5}});
+  } else {
+    cut(mesh, ElementType::wedge, {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}});
   }
-  mesh.connectivity = std::move(corners);
-  mesh.parts = std::move(parts);
-  mesh.types.assign(mesh.parts.size(), ElementType::wedge);
-  mesh.layers.clear();
-  mesh.facet_sets.clear();
 }
 
 inline Model with_part(Model model, const std::string& name, const ElasticMaterial& law,
